@@ -1,0 +1,1 @@
+#include "storage/formats/write.hpp"
