@@ -1,0 +1,155 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/compare.hpp"
+#include "core/ids.hpp"
+#include "core/time.hpp"
+#include "storage/page.hpp"
+#include "storage/payloads.hpp"
+#include "storage/store.hpp"
+
+namespace raywatch {
+
+/// Which earlier scans stand for the state of the world that a scan is compared with.
+struct PreviousReference {
+  friend bool operator==(const PreviousReference&, const PreviousReference&) = default;
+};
+struct WindowReference {
+  Time from, to;  ///< from <= captured_at < to
+  friend bool operator==(const WindowReference&, const WindowReference&) = default;
+};
+struct ExplicitReference {
+  std::vector<ScanId> scans;
+  friend bool operator==(const ExplicitReference&, const ExplicitReference&) = default;
+};
+using Reference = std::variant<PreviousReference, WindowReference, ExplicitReference>;
+
+enum class ComparisonState : std::uint8_t { queued, running, done, failed };
+std::string_view to_string(ComparisonState state);
+
+/// One prior as it was used.
+struct ComparisonPrior {
+  ScanId scan;
+  VantageId vantage;
+  double overlap = 0.0;
+  std::uint64_t added = 0;
+  std::uint64_t removed = 0;
+};
+
+/// One scan that was considered as a prior, and what became of it.
+struct ComparisonCandidate {
+  ScanId scan;
+  VantageId vantage;
+  double distance_m = 0.0;
+  Duration age{};
+  double overlap = 0.0;
+  double gain = 0.0;
+  bool chosen = false;
+  std::string reason;
+};
+
+/// One scan against one reference.
+struct ComparisonRecord {
+  ComparisonId id;
+  ScanId scan;
+  SiteId site;
+  ComparisonState state = ComparisonState::queued;
+  std::string failure;
+  Reference reference;
+  CompareParameters parameters;
+  std::vector<ComparisonPrior> priors;
+  std::array<std::uint64_t, kPointClasses> counts{};
+  double testable = 0.0;
+  std::uint64_t changes = 0;
+  std::map<std::string, double> timings_ms;
+  std::vector<std::string> warnings;
+  PayloadRef payload;
+  Time created_at;
+  std::optional<Time> finished_at;
+};
+
+/// A change as stored; places are local.
+struct ChangeRecord {
+  ChangeId id;
+  ComparisonId comparison;
+  SiteId site;
+  ScanId scan;
+  Time captured_at;  ///< of the scan
+  std::int32_t place = 0;  ///< in its comparison; what `ComparisonPoints::change_of` refers to
+  Change change;
+};
+
+/// A unit of durable work: run one comparison.
+struct Job {
+  JobId id;
+  ComparisonId comparison;
+  ScanId scan;
+  SiteId site;
+  int attempts = 0;  ///< times that it was started
+};
+
+/// Queues a comparison of a stored scan, with its job.
+ComparisonRecord insert_comparison(Transaction& transaction, ScanId scan, const Reference& reference,
+                                   const CompareParameters& parameters, Time now);
+std::optional<ComparisonRecord> find_comparison(const Snapshot& snapshot, ComparisonId id);
+
+struct ComparisonFilter {
+  std::optional<SiteId> site;
+  std::optional<ScanId> scan;
+  std::optional<ComparisonState> state;
+};
+/// Newest first.
+Page<ComparisonRecord> list_comparisons(const Snapshot& snapshot, const ComparisonFilter& filter,
+                                        const PageRequest& page);
+/// All of one scan, oldest first.
+std::vector<ComparisonRecord> comparisons_of(const Snapshot& snapshot, ScanId scan);
+std::vector<ComparisonCandidate> candidates_of(const Snapshot& snapshot, ComparisonId id);
+
+/// Takes the job of `site` that is earliest by the capture time of its scan, then by id, and marks it, its comparison
+/// and its scan as started; nothing if there is none that is not started.
+std::optional<Job> start_job(Transaction& transaction, SiteId site);
+/// The sites with jobs that are not started.
+std::vector<SiteId> sites_with_jobs(const Snapshot& snapshot);
+std::uint64_t unfinished_jobs(const Snapshot& snapshot);
+/// After a stop: jobs that were started and not finished become ready again. Returns how many.
+std::uint64_t requeue_started_jobs(Transaction& transaction);
+
+/// What a finished comparison adds to the store.
+struct ComparisonResult {
+  std::vector<ComparisonPrior> priors;
+  std::vector<ComparisonCandidate> candidates;
+  std::array<std::uint64_t, kPointClasses> counts{};
+  double testable = 0.0;
+  std::vector<Change> changes;
+  std::map<std::string, double> timings_ms;
+  std::vector<std::string> warnings;
+  PayloadRef payload;
+};
+/// Commits a result, the end of its job and the scan's state, once: a job that is already finished changes nothing and
+/// gives false (its payload is then without an owner).
+bool finish_job(Transaction& transaction, const Job& job, const ComparisonResult& result, Time now);
+/// Ends a job without a result. The scan becomes `failed` when this was its only comparison.
+void fail_job(Transaction& transaction, const Job& job, std::string_view why, Time now);
+/// Puts a started job back (transient trouble such as a full disk).
+void requeue_job(Transaction& transaction, const Job& job);
+
+struct ChangeFilter {
+  std::optional<SiteId> site;
+  std::optional<ComparisonId> comparison;
+  std::optional<ChangeKind> kind;
+  std::optional<Time> from, to;
+  std::optional<Eigen::AlignedBox3d> box_m;  ///< local; needs `site`; changes whose bounds intersect it (R*Tree)
+  std::optional<double> min_volume_m3;
+};
+/// Newest capture first, then by place in the comparison.
+Page<ChangeRecord> list_changes(const Snapshot& snapshot, const ChangeFilter& filter, const PageRequest& page);
+std::optional<ChangeRecord> find_change(const Snapshot& snapshot, ChangeId id);
+
+}  // namespace raywatch

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/ids.hpp"
+#include "core/profile.hpp"
+#include "core/time.hpp"
+#include "storage/page.hpp"
+#include "storage/store.hpp"
+
+namespace raywatch {
+
+/// One local metric coordinate frame. What the store keeps about places is relative to `origin_m` ("local"); what goes
+/// out to users has it added back in double.
+struct Site {
+  SiteId id;
+  std::string name;
+  std::string time_zone = "UTC";  ///< IANA name
+  Profile profile = Profile::indoor;
+  std::optional<int> epsg;
+  std::optional<Eigen::Vector3d> origin_m;  ///< fixed by the first scan when not given
+  Time created_at;
+};
+
+/// What an edit changes; empty members stay as they are.
+struct SiteEdit {
+  std::optional<std::string> time_zone;
+  std::optional<Profile> profile;
+  std::optional<int> epsg;
+  std::optional<Eigen::Vector3d> origin_m;  ///< refused (Conflict) once the site has scans
+};
+
+/// `id` and `created_at` of the argument are ignored. @throws Conflict when the name is taken.
+Site insert_site(Transaction& transaction, const Site& site, Time now);
+std::optional<Site> find_site(const Snapshot& snapshot, std::string_view name);
+std::optional<Site> find_site(const Snapshot& snapshot, SiteId id);
+Page<Site> list_sites(const Snapshot& snapshot, const PageRequest& page);
+Site edit_site(Transaction& transaction, SiteId id, const SiteEdit& edit);
+/// @throws Conflict while the site has sensors.
+void delete_site(Transaction& transaction, SiteId id);
+
+}  // namespace raywatch
