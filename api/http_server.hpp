@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "api/services.hpp"
+
+namespace raywatch {
+
+struct HttpConfig {
+  std::string host = "127.0.0.1";
+  std::uint16_t port = 8420;       ///< 0: any free one
+  bool allow_remote = false;       ///< without it only loopback addresses are listened on
+  std::size_t threads = 16;
+  std::uint64_t max_body_bytes = std::uint64_t{1} << 30;
+  std::filesystem::path spool_dir;  ///< where bodies are received
+  std::size_t max_wait_s = 60;      ///< upper bound for `Prefer: wait=N`
+};
+
+/// The REST API over HTTP. Listens from construction on; serves from `start` until `stop` or destruction.
+class HttpServer {
+ public:
+  /// @throws InvalidInput for a host that is not loopback without `allow_remote`, or an address that cannot be bound.
+  HttpServer(const HttpConfig& config, const Services& services);
+  ~HttpServer();
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+
+  std::uint16_t port() const;  ///< the bound one
+  void start();                ///< returns at once; serves on its own threads
+  void stop();                 ///< finishes requests in progress (at most a few seconds), then returns
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace raywatch
