@@ -23,6 +23,7 @@ std::string_view media_type(PointFormat format);
 struct PointColumn {
   std::string name;
   std::variant<std::span<const float>, std::span<const std::uint8_t>, std::span<const std::int32_t>> values;
+  std::span<const std::string_view> labels = {};  ///< of the values of an u8 column: what csv prints instead of them
 };
 
 /// A table of points to write. Coordinates are given relative to `origin_m`; text formats print their sum in double,
@@ -30,6 +31,7 @@ struct PointColumn {
 struct PointTable {
   std::span<const float> x_m, y_m, z_m;
   std::vector<PointColumn> columns;
+  std::size_t leading_columns = 0;  ///< of `columns`: how many stand before x, y, z (csv only)
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
   Pose viewpoint;  ///< PCD's VIEWPOINT
 };
@@ -38,8 +40,10 @@ struct PointTable {
 /// - pcd: binary, fields x y z and the columns (F4, U1, I4)
 /// - ply: binary little endian, the same properties
 /// - csv: header line, then one row a point; numbers round-trip; a column of int32 prints -1 as empty
-/// - bin: little endian, "RWPB", u32 version = 1, u64 points, 3 f64 origin_m, u32 number of columns, then for each column
-///   u8 type (0 f32, 1 u8, 2 i32), u8 length of the name, the name; then the planes x, y, z (f32) and each column's plane
+/// - bin: little endian, "RWPB", u32 version = 1, u64 points, 3 f64 origin_m, u32 number of columns, then for each
+/// column
+///   u8 type (0 f32, 1 u8, 2 i32), u8 length of the name, the name; then the planes x, y, z (f32) and each column's
+///   plane
 /// @throws StorageError when the stream fails.
 void write_points(std::ostream& out, PointFormat format, const PointTable& table);
 
