@@ -30,10 +30,10 @@ struct PointColumn {
 /// binary ones keep float32 and record the origin (PCD and PLY: a comment "origin_m x y z"; bin: in its header).
 struct PointTable {
   std::span<const float> x_m, y_m, z_m;
-  std::vector<PointColumn> columns;
+  std::vector<PointColumn> columns = {};
   std::size_t leading_columns = 0;  ///< of `columns`: how many stand before x, y, z (csv only)
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
-  Pose viewpoint;  ///< PCD's VIEWPOINT
+  Pose viewpoint = {};  ///< PCD's VIEWPOINT
 };
 
 /// Writes the table.

@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "core/error.hpp"
+#include "storage/formats/decode.hpp"
+#include "storage/formats/text_lines.hpp"
+
+namespace raywatch {
+namespace {
+
+struct FormatName {
+  std::string_view name;
+  ScanFormat format;
+};
+
+constexpr std::array kNames = {
+    FormatName{"pcd", ScanFormat::pcd},  FormatName{"ply", ScanFormat::ply},   FormatName{"las", ScanFormat::las},
+    FormatName{"ptx", ScanFormat::ptx},  FormatName{"text", ScanFormat::text}, FormatName{"kitti", ScanFormat::kitti},
+    FormatName{"xyz", ScanFormat::text}, FormatName{"csv", ScanFormat::text},  FormatName{"txt", ScanFormat::text},
+    FormatName{"asc", ScanFormat::text}, FormatName{"bin", ScanFormat::kitti},
+};
+
+constexpr std::string_view kKnown =
+    "known are pcd, ply, las (uncompressed), ptx, text (xyz, csv, txt, asc) and kitti (bin)";
+
+std::optional<ScanFormat> format_named(std::string_view name) {
+  const std::string lower = lower_case(name);
+  const auto* found = std::ranges::find(kNames, std::string_view(lower), &FormatName::name);
+  if (found == kNames.end()) return std::nullopt;
+  return found->format;
+}
+
+std::string_view ending_of(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string_view::npos ? std::string_view{} : name.substr(dot + 1);
+}
+
+/// A PCD header may begin with comments of any kind.
+bool looks_like_pcd(std::string_view text) {
+  if (text.starts_with("# .PCD")) return true;
+  TextLines lines(text);
+  std::vector<std::string_view> words;
+  while (lines.next()) {
+    split_words(lines.line(), words);
+    if (words.empty() || words[0].starts_with('#')) continue;
+    return words[0] == "VERSION" && words.size() == 2;
+  }
+  return false;
+}
+
+bool is_number(std::string_view word) {
+  return !word.empty() && word.find_first_not_of("0123456789+-.eE") == std::string_view::npos;
+}
+
+/// Two lines of one whole number, four of three numbers, four of four.
+bool looks_like_ptx(std::string_view text) {
+  TextLines lines(text);
+  std::vector<std::string_view> words;
+  for (const std::size_t expected : {1, 1, 3, 3, 3, 3, 4, 4, 4, 4}) {
+    if (!lines.next()) return false;
+    split_words(lines.line(), words);
+    if (words.size() != expected || !std::ranges::all_of(words, is_number)) return false;
+  }
+  return true;
+}
+
+std::optional<ScanFormat> format_of_content(std::string_view text) {
+  if (looks_like_pcd(text)) return ScanFormat::pcd;
+  if (text.starts_with("ply\n") || text.starts_with("ply\r\n")) return ScanFormat::ply;
+  if (text.starts_with("LASF")) return ScanFormat::las;
+  if (text.starts_with("RWPB")) {
+    throw UnsupportedFormat("this is a point table that raywatch wrote, not a scan; " + std::string(kKnown));
+  }
+  if (looks_like_ptx(text)) return ScanFormat::ptx;
+  return std::nullopt;
+}
+
+}  // namespace
+
+ScanFormat detect_scan_format(std::span<const std::byte> bytes, std::string_view name) {
+  // Whatever shows the format stands at the beginning.
+  constexpr std::size_t kBeginning = 4096;
+  if (const auto format = format_of_content(as_text(bytes.first(std::min(bytes.size(), kBeginning))))) return *format;
+  if (lower_case(ending_of(name)) == "laz") {
+    throw UnsupportedFormat("compressed LAS (LAZ) is not read; please decompress it to LAS first");
+  }
+  if (const auto format = format_named(ending_of(name))) return *format;
+  throw UnsupportedFormat("neither the content nor the name of the file shows a format; " + std::string(kKnown));
+}
+
+ScanFormat parse_scan_format(std::string_view name) {
+  if (const auto format = format_named(name)) return *format;
+  throw UnsupportedFormat(quoted(name) + " is no scan format; " + std::string(kKnown));
+}
+
+std::string_view to_string(ScanFormat format) { return std::ranges::find(kNames, format, &FormatName::format)->name; }
+
+}  // namespace raywatch
