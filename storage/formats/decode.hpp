@@ -27,6 +27,9 @@ std::vector<DecodedScan> decode_text(std::span<const std::byte> bytes, const Sca
 std::vector<DecodedScan> decode_kitti(std::span<const std::byte> bytes, const ScanHints&, const ScanFileLimits&);
 /// @}
 
+/// The one scan of a file.
+std::vector<DecodedScan> single_scan(PointCloud points, const std::optional<Pose>& world_from_sensor);
+
 /// The bytes as text.
 inline std::string_view as_text(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

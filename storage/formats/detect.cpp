@@ -76,22 +76,42 @@ std::optional<ScanFormat> format_of_content(std::string_view text) {
   return std::nullopt;
 }
 
+/// The first line that is no comment begins with three numbers or names the columns x, y and z.
+bool looks_like_table(std::string_view text) {
+  TextLines lines(text);
+  std::vector<std::string_view> words;
+  while (lines.next()) {
+    std::string line = lower_case(lines.line());
+    if (line.starts_with('#') || line.starts_with("//")) continue;
+    std::ranges::replace_if(
+        line, [](char c) { return c == ',' || c == ';'; }, ' ');
+    split_words(line, words);
+    if (words.empty()) continue;
+    const auto named = [&](std::string_view name) { return std::ranges::find(words, name) != words.end(); };
+    return (words.size() >= 3 && std::all_of(words.begin(), words.begin() + 3, is_number)) ||
+           (named("x") && named("y") && named("z"));
+  }
+  return false;
+}
+
 }  // namespace
 
 ScanFormat detect_scan_format(std::span<const std::byte> bytes, std::string_view name) {
   // Whatever shows the format stands at the beginning.
   constexpr std::size_t kBeginning = 4096;
-  if (const auto format = format_of_content(as_text(bytes.first(std::min(bytes.size(), kBeginning))))) return *format;
+  const std::string_view beginning = as_text(bytes.first(std::min(bytes.size(), kBeginning)));
+  if (const auto format = format_of_content(beginning)) return *format;
   if (lower_case(ending_of(name)) == "laz") {
     throw UnsupportedFormat("compressed LAS (LAZ) is not read; please decompress it to LAS first");
   }
   if (const auto format = format_named(ending_of(name))) return *format;
+  if (looks_like_table(beginning)) return ScanFormat::text;
   throw UnsupportedFormat("neither the content nor the name of the file shows a format; " + std::string(kKnown));
 }
 
 ScanFormat parse_scan_format(std::string_view name) {
   if (const auto format = format_named(name)) return *format;
-  throw UnsupportedFormat(quoted(name) + " is no scan format; " + std::string(kKnown));
+  throw UnsupportedFormat(shown(name) + " is no scan format; " + std::string(kKnown));
 }
 
 std::string_view to_string(ScanFormat format) { return std::ranges::find(kNames, format, &FormatName::format)->name; }

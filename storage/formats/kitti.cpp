@@ -18,12 +18,8 @@ std::vector<DecodedScan> decode_kitti(std::span<const std::byte> bytes, const Sc
     return FieldView{bytes.data() + field * sizeof(float), kRecord, NumberType::f32};
   };
   const Placement placement = placement_of(hints, Frame::sensor, std::nullopt);
-  DecodedScan scan;
-  scan.points = read_point_fields({view(0), view(1), view(2), view(3)}, count, placement);
-  scan.world_from_sensor = placement.world_from_sensor;
-  std::vector<DecodedScan> scans;
-  scans.push_back(std::move(scan));
-  return scans;
+  return single_scan(read_point_fields({view(0), view(1), view(2), view(3)}, count, placement),
+                     placement.world_from_sensor);
 }
 
 }  // namespace raywatch

@@ -172,13 +172,9 @@ std::optional<ShotGrid> shot_grid(const PcdHeader& header) {
 std::vector<DecodedScan> decode_pcd(Bytes bytes, const ScanHints& hints, const ScanFileLimits& limits) {
   const PcdHeader header = parse_pcd_header(as_text(bytes));
   const Placement placement = placement_of(hints, Frame::sensor, header.viewpoint, header.origin_m);
-  DecodedScan scan;
-  scan.points = read_points(header, bytes.subspan(header.data_offset), placement, limits);
-  scan.points.grid = shot_grid(header);
-  scan.world_from_sensor = placement.world_from_sensor;
-  std::vector<DecodedScan> scans;
-  scans.push_back(std::move(scan));
-  return scans;
+  PointCloud points = read_points(header, bytes.subspan(header.data_offset), placement, limits);
+  points.grid = shot_grid(header);
+  return single_scan(std::move(points), placement.world_from_sensor);
 }
 
 }  // namespace raywatch

@@ -56,7 +56,7 @@ NumberType number_type(const Entry& type, const Entry& size, std::size_t field) 
       {"F4", NumberType::f32}, {"F8", NumberType::f64}};
   const auto found = kTypes.find(name);
   if (found == kTypes.end()) {
-    refuse(type, "TYPE and SIZE " + quoted(name) + " of field " + std::to_string(field + 1) +
+    refuse(type, "TYPE and SIZE " + shown(name) + " of field " + std::to_string(field + 1) +
                      " is none of I1 I2 I4 I8 U1 U2 U4 U8 F4 F8");
   }
   return found->second;
@@ -83,7 +83,7 @@ void lay_out(PcdHeader& header, const Entry& names) {
   for (PcdField& field : header.fields) {
     const auto bytes = checked_product(field.count, size_of(field.type));
     if (!bytes || *bytes > kMost || header.point_bytes + *bytes > kMost) {
-      refuse(names, "a point of more than 2^32 bytes: COUNT of " + quoted(field.name));
+      refuse(names, "a point of more than 2^32 bytes: COUNT of " + shown(field.name));
     }
     field.offset = header.point_bytes;
     field.column = header.point_columns;
@@ -148,7 +148,7 @@ Entries collect_entries(std::string_view file, PcdHeader& header) {
     }
     const std::string_view name = words[0] == "COLUMNS" ? "FIELDS" : words[0];  // as version 0.5 calls them
     if (std::ranges::find(kKnown, name) == kKnown.end()) {
-      throw InvalidInput(at_line(lines.number()) + quoted(name) + " is no entry of a PCD header");
+      throw InvalidInput(at_line(lines.number()) + shown(name) + " is no entry of a PCD header");
     }
     const Entry entry{lines.number(), Words(words.begin() + 1, words.end())};
     if (!entries.emplace(name, entry).second) refuse(entry, std::string(name) + " stands there twice");

@@ -49,6 +49,13 @@ std::vector<DecodedScan> decode_scan(std::span<const std::byte> bytes, std::stri
   return scans;
 }
 
+std::vector<DecodedScan> single_scan(PointCloud points, const std::optional<Pose>& world_from_sensor) {
+  std::vector<DecodedScan> scans(1);
+  scans.front().points = std::move(points);
+  scans.front().world_from_sensor = world_from_sensor;
+  return scans;
+}
+
 std::vector<DecodedScan> read_scan_file(const std::filesystem::path& path, const ScanHints& hints,
                                         const ScanFileLimits& limits) {
   const FileBytes file(path, limits.max_bytes);
@@ -58,7 +65,7 @@ std::vector<DecodedScan> read_scan_file(const std::filesystem::path& path, const
 Frame parse_frame(std::string_view name) {
   if (name == "sensor") return Frame::sensor;
   if (name == "world") return Frame::world;
-  const std::string message = quoted(name) + " is no frame; it is sensor or world";
+  const std::string message = shown(name) + " is no frame; it is sensor or world";
   throw InvalidInput("frame: " + message, {{"frame", message}});
 }
 

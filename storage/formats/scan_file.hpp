@@ -49,11 +49,10 @@ struct DecodedScan {
 /// Points in world coordinates are moved into the sensor frame in double precision before they become float.
 /// An identity VIEWPOINT of a PCD file counts as absent. LAS gives no time: its GPS times need leap seconds to be UTC,
 /// and the older ones do not even say of which week they are.
-/// @throws UnsupportedFormat when the content is in none of the formats; InvalidInput when the file is empty,
-/// truncated,
+/// @throws UnsupportedFormat when the content is in none of the formats; InvalidInput when the file is empty or broken,
 ///   promises more points than it holds, has no finite point, or has world coordinates but no pose; TooLarge past a
-///   limit; StorageError when it cannot be read. Every message names the place (line, byte, header field), but
-///   not the file, which the caller knows.
+///   limit; StorageError when it cannot be read. Every message names the place (line, byte, header field), but not the
+///   file, which the caller knows.
 std::vector<DecodedScan> read_scan_file(const std::filesystem::path& path, const ScanHints& hints = {},
                                         const ScanFileLimits& limits = {});
 

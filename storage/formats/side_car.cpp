@@ -64,7 +64,7 @@ void check_members(const Json& object, std::span<const std::string_view> known, 
         std::ranges::min(known, {}, [&](std::string_view name) { return edit_distance(shortened, name); });
     const std::string name =
         parent.member.empty() ? std::string(shortened) : parent.member + "." + std::string(shortened);
-    Place{parent.file, name}.refuse("unknown member; did you mean " + quoted(nearest) + "?");
+    Place{parent.file, name}.refuse("unknown member; did you mean " + shown(nearest) + "?");
   }
 }
 
@@ -180,7 +180,7 @@ Pose parse_pose_text(std::string_view text, const char* field) {
   }
   for (std::size_t i = 0; i < v.size(); ++i) {
     const auto number = try_parse_real(cells[i]);
-    if (!number) refuse(quoted(cells[i]) + " is not a number");
+    if (!number) refuse(shown(cells[i]) + " is not a number");
     v[i] = *number;
   }
   return checked_pose({v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}, field);

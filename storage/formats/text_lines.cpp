@@ -27,7 +27,7 @@ Number required_number(std::string_view text, std::size_t line, const char* what
   const std::errc error = parse_whole(text, number);
   if (error == std::errc{}) return number;
   const bool out_of_range = error == std::errc::result_out_of_range;
-  throw InvalidInput(at_line(line) + quoted(text) +
+  throw InvalidInput(at_line(line) + shown(text) +
                      (out_of_range ? " is out of range" : std::string(" is not ") + what));
 }
 
@@ -80,11 +80,11 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-std::string quoted(std::string_view text) {
+std::string shown(std::string_view text) {
   constexpr std::size_t kLongest = 40;
-  std::string shown = "'";
-  for (const char c : text.substr(0, kLongest)) shown += c >= ' ' && c <= '~' ? c : '?';
-  return shown + (text.size() > kLongest ? "...'" : "'");
+  std::string safe = "'";
+  for (const char c : text.substr(0, kLongest)) safe += c >= ' ' && c <= '~' ? c : '?';
+  return safe + (text.size() > kLongest ? "...'" : "'");
 }
 
 std::string at_line(std::size_t number) { return "line " + std::to_string(number) + ": "; }

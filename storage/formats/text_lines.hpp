@@ -37,7 +37,7 @@ std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);
 
 /// `text` for a message: quoted, cut when long, unprintable bytes replaced.
-std::string quoted(std::string_view text);
+std::string shown(std::string_view text);
 
 /// "line 12: ", for messages.
 std::string at_line(std::size_t number);

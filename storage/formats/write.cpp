@@ -112,6 +112,11 @@ void write_cell(OutBuffer& out, const PointColumn& column, std::size_t i) {
     if ((*ids)[i] != -1) out.number((*ids)[i]);
     return;
   }
+  if (const auto* codes = std::get_if<std::span<const std::uint8_t>>(&column.values); codes && !column.labels.empty()) {
+    assert((*codes)[i] < column.labels.size());
+    out.text(column.labels[(*codes)[i]]);
+    return;
+  }
   std::visit([&](const auto& values) { out.number(values[i]); }, column.values);
 }
 
@@ -181,7 +186,7 @@ ShotGrid one_row(const PointTable& table) {
 PointFormat parse_point_format(std::string_view name) {
   const auto* found = std::ranges::find(kFormatNames, name);
   if (found != kFormatNames.end()) return static_cast<PointFormat>(found - kFormatNames.begin());
-  const std::string message = quoted(name) + " is no format of points; known are pcd, ply, csv and bin";
+  const std::string message = shown(name) + " is no format of points; known are pcd, ply, csv and bin";
   throw InvalidInput("format: " + message, {{"format", message}});
 }
 

@@ -40,15 +40,14 @@ struct PointTable {
 /// - pcd: binary, fields x y z and the columns (F4, U1, I4)
 /// - ply: binary little endian, the same properties
 /// - csv: header line, then one row a point; numbers round-trip; a column of int32 prints -1 as empty
-/// - bin: little endian, "RWPB", u32 version = 1, u64 points, 3 f64 origin_m, u32 number of columns, then for each
-/// column
-///   u8 type (0 f32, 1 u8, 2 i32), u8 length of the name, the name; then the planes x, y, z (f32) and each column's
-///   plane
+/// - bin: little endian, "RWPB", u32 version = 1, u64 points, 3 f64 origin_m, u32 number of columns, for each column u8
+///   type (0 f32, 1 u8, 2 i32), u8 length of the name, the name; then the planes x, y, z (f32) and that of each column
 /// @throws StorageError when the stream fails.
 void write_points(std::ostream& out, PointFormat format, const PointTable& table);
 
 /// A scan as a PCD file that `read_scan_file` gives back bit-exact: sensor frame, VIEWPOINT = world_from_sensor,
-/// intensity when there is one, HEIGHT x WIDTH from the grid.
+/// intensity when there is one, HEIGHT x WIDTH from the grid. Two things PCD cannot say: an identity pose reads as
+/// absent, and a grid of one row as no grid.
 void write_scan_pcd(std::ostream& out, const PointCloud& points, const Pose& world_from_sensor);
 
 }  // namespace raywatch
