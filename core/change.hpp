@@ -15,6 +15,8 @@ enum class ChangeKind : std::uint8_t {
   discrepancy,  ///< two scans of the same time disagree
 };
 std::string_view to_string(ChangeKind kind);
+/// @throws InvalidInput naming the known ones.
+ChangeKind parse_change_kind(std::string_view name);
 
 /// A box with its own axes. `world_from_box` turns box axes (x: longest horizontal side, z: up) into world axes.
 struct OrientedBox {
@@ -24,7 +26,7 @@ struct OrientedBox {
 };
 
 /// How sure a change is: over its points, the mean share of priors that saw them free, that supported them, and that
-/// could not tell. `value` = free / (free + supported), weighted down by the share of points that no prior could test.
+/// could not tell. `value` is the share of the telling answers that say free: free / (free + supported).
 struct Confidence {
   double value = 0.0;  ///< 0..1
   double free = 0.0;
@@ -44,7 +46,7 @@ struct Change {
 };
 
 /// The box of least volume around `points_m` (3 x n, world, n >= 1) among those with a vertical axis.
-/// O(n log n): the rotating calipers run over the convex hull of the horizontal projection.
+/// O(n log n): one side lies on an edge of the convex hull of the horizontal projection.
 OrientedBox bounding_box(const Eigen::Matrix3Xd& points_m);
 
 }  // namespace raywatch

@@ -29,18 +29,17 @@ struct CandidateAssessment {
   double overlap = 0.0;     ///< share of the sample inside the candidate's coverage
   double gain = 0.0;        ///< share that it added to what was already covered, when it was its turn
   bool chosen = false;
-  std::string reason;       ///< why it was chosen or not, in words
+  std::string reason;  ///< why it was chosen or not, in words
 };
 
 struct ChoiceParameters {
   std::size_t max_priors = 4;
   std::size_t sample_points = 2000;
-  double min_overlap = 0.02;  ///< candidates that share less are of no use
-  double min_gain = 0.01;     ///< of covered ones, those that add less only count as repetition ...
-  double repeat_weight = 0.1; ///< ... but a second view of the same points still has this worth
+  double min_overlap = 0.02;   ///< candidates that share less are of no use
+  double repeat_weight = 0.1;  ///< worth of seeing a point again that one other prior covers; halved for two, and so on
 };
 
-/// At most `count` usable points of the scan, evenly spread over its directions order, in the world frame.
+/// At most `count` usable points of the scan, evenly spread over the order of the scan, in the world frame.
 std::vector<Eigen::Vector3d> sample_world_points(const PointCloud& points, const Pose& world_from_sensor,
                                                  const UsableRange& usable, std::size_t count);
 

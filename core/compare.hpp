@@ -54,7 +54,8 @@ struct CompareParameters {
   bool clustering = true;
   double cluster_distance_m = 0.10;     ///< d: points nearer than this belong together
   std::size_t cluster_min_points = 40;  ///< m: clusters of at most this many points are noise
-  double min_range_m = 0.0;             ///< applied besides each sensor's own usable range
+  /// The range in which returns count. Applied when the indexes are built: see `usable_range`.
+  double min_range_m = 0.0;
   double max_range_m = 1e9;
   Duration contemporary_tolerance = Duration::zero();
 };
@@ -65,7 +66,12 @@ struct ScanView {
   const PriorIndex& index;  ///< of the same points
   Pose world_from_sensor;   ///< with the registration applied
   Time captured_at;
+  SensorModel sensor;  ///< as far as known or estimated
 };
+
+/// Which returns of a sensor take part in a comparison. `union` filters by the parameters alone; `consensus` also
+/// respects what is known or estimated about the sensor. Indexes must be built with it.
+UsableRange usable_range(const SensorModel& sensor, const CompareParameters& parameters);
 
 /// A point of a prior that changed: it is free in the compared scan.
 struct PriorPoint {
@@ -77,14 +83,28 @@ struct PriorPoint {
 
 /// What one prior contributed.
 struct PriorShare {
-  std::size_t added = 0;    ///< points of the scan that are added and free in this prior
-  std::size_t removed = 0;  ///< points of this prior that are removed
+  std::size_t added = 0;    ///< points of the scan that changed and are free in this prior
+  std::size_t removed = 0;  ///< points of this prior that changed
   double angle_rad = 0.0;   ///< T_a as used
 };
 
-/// Disjoint wall times of the steps.
-struct CompareTimings {
-  Duration detect{}, cluster{};
+/// How many priors say what about a changed point of a prior.
+struct PriorPointVotes {
+  std::uint8_t free = 1;  ///< the compared scan itself, and the other priors
+  std::uint8_t supported = 0;
+};
+
+/// The result of asking, before points become changes: the classes hold for single points.
+struct Detection {
+  std::vector<PointClass> classes;           ///< one a point of the scan, in its order
+  std::vector<std::uint8_t> free;            ///< number of priors that answer free, one a point
+  std::vector<std::uint8_t> supported;       ///< number of priors that answer supported, one a point
+  std::vector<std::vector<Answer>> answers;  ///< of each prior about each point of the scan
+  std::vector<PriorPoint> prior_points;      ///< by prior, then index
+  std::vector<PriorPointVotes> prior_votes;  ///< one a prior point
+  std::vector<double> angle_rad;             ///< T_a as used, one a prior
+  double testable = 0.0;
+  std::vector<std::string> warnings;
 };
 
 /// The result of comparing one scan against its priors.
@@ -93,23 +113,29 @@ struct Comparison {
   std::vector<std::uint8_t> free;       ///< number of priors that answer free, one a point
   std::vector<std::uint8_t> supported;  ///< number of priors that answer supported, one a point
   std::vector<std::int32_t> change_of;  ///< place in `changes` or -1, one a point
-  std::vector<PriorPoint> prior_points;  ///< by prior, then index; only those in kept clusters, unless clustering is off
-  std::vector<Change> changes;          ///< by kind, then descending number of points, then centroid
+  std::vector<PriorPoint>
+      prior_points;             ///< by prior, then index; only those in kept clusters, unless clustering is off
+  std::vector<Change> changes;  ///< by kind, then descending number of points, then centroid
   std::array<std::size_t, kPointClasses> counts{};  ///< of the scan's points, plus the changed ones of the priors
   double testable = 0.0;  ///< share of the scan's valid points that at least one prior answers with free or supported
   std::vector<PriorShare> priors;
   std::vector<std::string> warnings;
 };
 
-/// Compares `scan` against `priors` both ways (DESIGN: explicit change detection after Underwood et al., ICRA 2013).
+/// Asks both ways: the scan's points against the priors, the priors' points against the scan; and folds the answers.
+/// @throws InvalidInput for a parameter out of its range or more than 255 priors.
+Detection detect(const ScanView& scan, std::span<const ScanView> priors, const CompareParameters& parameters);
+
+/// Clusters the changed points, drops what is noise, and describes what is left.
+Comparison form_changes(const ScanView& scan, std::span<const ScanView> priors, const CompareParameters& parameters,
+                        Detection detection);
+
+/// Compares `scan` against `priors`: explicit change detection after Underwood, Gillsjo, Bailey and Vlaskine, "Explicit
+/// 3D Change Detection using Ray-Tracing in Spherical Coordinates", ICRA 2013. `detect`, then `form_changes`.
 ///
 /// Deterministic: the same arguments give the same bytes at any number of threads. Runs in the caller's oneTBB arena.
-/// No priors: every valid point is unseen. More than 255 priors: InvalidInput.
-/// @param now a steady clock reading, for the timings only; core has no clock of its own.
-struct CompareResult {
-  Comparison comparison;
-  CompareTimings timings;
-};
-CompareResult compare(const ScanView& scan, std::span<const ScanView> priors, const CompareParameters& parameters);
+/// Without priors every valid point is unseen. All poses must be relative to an origin near the scans (float32 carries
+/// the coordinates of changed points).
+Comparison compare(const ScanView& scan, std::span<const ScanView> priors, const CompareParameters& parameters);
 
 }  // namespace raywatch

@@ -20,8 +20,11 @@ struct Panorama {
   static constexpr std::size_t kRows = 60;
   static constexpr std::size_t kColumns = 120;
   std::vector<std::uint16_t> farthest;  ///< kRows * kColumns
+
+  double range_m(std::size_t cell) const;  ///< the farthest range seen in a cell; 0 if nothing was
 };
 
+/// From the usable returns of a scan. O(n).
 Panorama make_panorama(const PointCloud& points, const UsableRange& usable);
 
 /// The same as kRows * kColumns * 2 bytes, little endian.

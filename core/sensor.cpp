@@ -1,1 +1,150 @@
 #include "core/sensor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/prior_index_impl.hpp"
+
+namespace raywatch {
+namespace {
+
+constexpr std::size_t kSamples = 600;
+constexpr double kWidestSearch_rad = 0.2;
+
+template <class T>
+T median(std::vector<T> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The angular distances from one return to its neighbours on either side, and above and below: the nearest return in
+/// each quarter of the directions around it. Infinite where there is none.
+struct Neighbours {
+  double east = std::numeric_limits<double>::infinity();
+  double west = east, north = east, south = east;
+
+  bool complete() const { return std::isfinite(std::max({east, west, north, south})); }
+  void offer(double azimuth_rad, double elevation_rad) {
+    const double distance = std::hypot(azimuth_rad, elevation_rad);
+    if (distance < 1e-6) return;  // the return itself, or a second echo of the same shot
+    double& nearest = std::abs(azimuth_rad) >= std::abs(elevation_rad) ? (azimuth_rad > 0.0 ? east : west)
+                                                                       : (elevation_rad > 0.0 ? north : south);
+    nearest = std::min(nearest, distance);
+  }
+};
+
+Neighbours look_around(const PriorIndex::Impl& index, std::uint32_t center, double radius_rad) {
+  const DirectionGrid& grid = index.grid;
+  const Direction from = direction_of(index.x_m[center], index.y_m[center], index.z_m[center]);
+  Neighbours neighbours;
+  const std::size_t first_row = grid.row_of(from.elevation_rad - radius_rad);
+  const std::size_t last_row = grid.row_of(from.elevation_rad + radius_rad);
+  for (std::size_t row = first_row; row <= last_row; ++row) {
+    const auto columns = static_cast<std::int64_t>(grid.columns(row));
+    const auto reach = static_cast<std::int64_t>(std::ceil(radius_rad / grid.cell_rad()));
+    const auto column = static_cast<std::int64_t>(grid.column_coordinate(row, from.azimuth_rad));
+    const std::int64_t first = 2 * reach + 1 >= columns ? 0 : column - reach;
+    const std::int64_t last = 2 * reach + 1 >= columns ? columns - 1 : column + reach;
+    for (std::int64_t c = first; c <= last; ++c) {
+      const std::uint32_t cell = grid.first_cell(row) + static_cast<std::uint32_t>((c + columns) % columns);
+      for (std::uint32_t i = index.first[cell]; i < index.first[cell + 1]; ++i) {
+        const Direction to = direction_of(index.x_m[i], index.y_m[i], index.z_m[i]);
+        const double turn = std::remainder(to.azimuth_rad - from.azimuth_rad, 2.0 * std::numbers::pi);
+        neighbours.offer(turn * std::cos(from.elevation_rad), to.elevation_rad - from.elevation_rad);
+      }
+    }
+  }
+  return neighbours;
+}
+
+std::optional<Eigen::Vector2d> angular_resolution(const PriorIndex::Impl& index) {
+  std::vector<double> azimuth, elevation;
+  const std::size_t n = index.source.size();
+  const std::size_t samples = std::min(n, kSamples);
+  for (std::size_t k = 0; k < samples; ++k) {
+    const auto center = static_cast<std::uint32_t>(k * n / samples);
+    Neighbours neighbours;
+    for (double radius = 2.0 * index.grid.cell_rad(); radius <= kWidestSearch_rad; radius *= 2.0) {
+      neighbours = look_around(index, center, radius);
+      if (neighbours.complete()) break;
+    }
+    if (!neighbours.complete()) continue;
+    azimuth.push_back(std::max(neighbours.east, neighbours.west));
+    elevation.push_back(std::max(neighbours.north, neighbours.south));
+  }
+  if (azimuth.size() < 8) return std::nullopt;
+  return Eigen::Vector2d(median(azimuth), median(elevation));
+}
+
+std::vector<float> ranges_of(const PointCloud& cloud) {
+  std::vector<float> ranges_m(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) ranges_m[i] = cloud[i].norm();
+  return ranges_m;
+}
+
+/// A real farthest range is that of few returns; a sentinel is that of many, and all of them to the millimetre.
+std::optional<double> sentinel_range(const std::vector<float>& ranges_m) {
+  constexpr std::size_t kLeastReturns = 50;
+  constexpr double kLeastShare = 0.005;
+  double farthest_m = 0.0;
+  std::size_t measured = 0;
+  for (const float range_m : ranges_m) {
+    if (!(std::isfinite(range_m) && range_m > 0.0f)) continue;
+    ++measured;
+    farthest_m = std::max<double>(farthest_m, range_m);
+  }
+  const auto at_the_end = static_cast<std::size_t>(std::count_if(ranges_m.begin(), ranges_m.end(), [&](float range_m) {
+    return std::isfinite(range_m) && range_m >= farthest_m - kNoReturnBand_m;
+  }));
+  const auto needed =
+      std::max<std::size_t>(kLeastReturns, static_cast<std::size_t>(kLeastShare * static_cast<double>(measured)));
+  if (measured == 0 || at_the_end < needed) return std::nullopt;
+  return farthest_m;
+}
+
+/// From the second differences of consecutive returns, which vanish on smooth surfaces: their spread is sqrt(1.5) times
+/// the noise of one. The median absolute deviation leaves edges out of account.
+std::optional<double> range_noise(const PointCloud& cloud, const std::vector<float>& ranges_m, double spacing_rad) {
+  const double least_cosine = std::cos(std::min(2.0 * spacing_rad, 0.5));
+  std::vector<float> deviations_m;
+  for (std::size_t i = 1; i + 1 < cloud.size(); ++i) {
+    const float before = ranges_m[i - 1], here = ranges_m[i], after = ranges_m[i + 1];
+    if (!(before > 0.0f && here > 0.0f && after > 0.0f && std::isfinite(before + here + after))) continue;
+    const bool adjacent = cloud[i].dot(cloud[i - 1]) >= least_cosine * here * before &&
+                          cloud[i].dot(cloud[i + 1]) >= least_cosine * here * after;
+    if (adjacent) deviations_m.push_back(std::abs(here - 0.5f * (before + after)));
+  }
+  if (deviations_m.size() < 100) return std::nullopt;
+  return 1.4826 * median(std::move(deviations_m)) / std::sqrt(1.5);
+}
+
+}  // namespace
+
+SensorModel estimate_sensor(const PointCloud& cloud) { return estimate_sensor(cloud, PriorIndex::build(cloud, {})); }
+
+SensorModel estimate_sensor(const PointCloud& cloud, const PriorIndex& index) {
+  SensorModel model;
+  const std::vector<float> ranges_m = ranges_of(cloud);
+  model.no_return_m = sentinel_range(ranges_m);
+  model.angular_resolution_rad = angular_resolution(index.impl());
+  if (model.angular_resolution_rad) {
+    model.range_noise_m = range_noise(cloud, ranges_m, model.angular_resolution_rad->maxCoeff());
+  }
+  return model;
+}
+
+SensorModel merged(const SensorModel& known, const SensorModel& estimated) {
+  const auto either = [](const auto& first, const auto& second) { return first ? first : second; };
+  return {.range_noise_m = either(known.range_noise_m, estimated.range_noise_m),
+          .angular_resolution_rad = either(known.angular_resolution_rad, estimated.angular_resolution_rad),
+          .beam_divergence_rad = either(known.beam_divergence_rad, estimated.beam_divergence_rad),
+          .min_range_m = either(known.min_range_m, estimated.min_range_m),
+          .max_range_m = either(known.max_range_m, estimated.max_range_m),
+          .no_return_m = either(known.no_return_m, estimated.no_return_m)};
+}
+
+}  // namespace raywatch

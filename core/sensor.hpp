@@ -17,12 +17,18 @@ struct SensorModel {
   std::optional<double> no_return_m;  ///< the range reported for "no return", when the sensor has such a sentinel
 };
 
+class PriorIndex;
+
 /// What one scan shows about the sensor that took it:
-/// - `angular_resolution_rad`: the median angular distance between neighbouring returns in the order of the file
-///   (azimuth) and between neighbouring rings (elevation; equal to the former where no rings stand out);
-/// - `no_return_m`: a range that an implausible share of the returns has to the millimetre and none exceeds.
-/// Fields that the scan does not show stay empty. Deterministic; O(n log n).
+/// - `angular_resolution_rad`: the medians of the angular distance to the neighbouring returns on either side, and
+/// above
+///   and below, whatever the order of the returns is;
+/// - `no_return_m`: a range that an implausible share of the returns has to the millimetre and none exceeds;
+/// - `range_noise_m`: from second differences of consecutive returns, where the order of the returns allows it.
+/// Fields that the scan does not show stay empty. Deterministic; O(n).
 SensorModel estimate_sensor(const PointCloud& cloud);
+/// The same with an index of the cloud's returns that is there already.
+SensorModel estimate_sensor(const PointCloud& cloud, const PriorIndex& index);
 
 /// `known` with its empty fields filled from `estimated`.
 SensorModel merged(const SensorModel& known, const SensorModel& estimated);

@@ -1,0 +1,132 @@
+#include "core/choose_priors.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace raywatch {
+namespace {
+
+std::string percent(double share) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.1f %%", 100.0 * share);
+  return text;
+}
+
+using Cover = std::vector<std::uint8_t>;  // one a sample point: inside the coverage or not
+
+Cover cover_of(const PriorCandidate& candidate, std::span<const Eigen::Vector3d> sample_m) {
+  const Pose sensor_from_world = candidate.world_from_sensor.inverse();
+  Cover cover(sample_m.size());
+  std::transform(sample_m.begin(), sample_m.end(), cover.begin(), [&](const Eigen::Vector3d& point_m) {
+    return static_cast<std::uint8_t>(covers(candidate.coverage, sensor_from_world, point_m));
+  });
+  return cover;
+}
+
+double share(std::size_t count, std::size_t total) {
+  return total == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(total);
+}
+
+/// What a candidate adds: points not covered yet in full, points that are covered already at the repetition's weight.
+struct Gain {
+  double fresh = 0.0;
+  double worth = 0.0;
+};
+
+Gain gain_of(const Cover& cover, const std::vector<std::uint8_t>& times_covered, double repeat_weight) {
+  std::size_t fresh = 0;
+  double repeated = 0.0;
+  for (std::size_t i = 0; i < cover.size(); ++i) {
+    if (!cover[i]) continue;
+    if (times_covered[i] == 0) {
+      ++fresh;
+    } else {
+      repeated += repeat_weight / times_covered[i];
+    }
+  }
+  const double fresh_share = share(fresh, cover.size());
+  return {fresh_share, fresh_share + (cover.empty() ? 0.0 : repeated / static_cast<double>(cover.size()))};
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> sample_world_points(const PointCloud& points, const Pose& world_from_sensor,
+                                                 const UsableRange& usable, std::size_t count) {
+  std::vector<std::size_t> usable_points;
+  usable_points.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_usable(points[i].cast<double>().norm(), usable)) usable_points.push_back(i);
+  }
+  const std::size_t taken = std::min(count, usable_points.size());
+  std::vector<Eigen::Vector3d> sample_m;
+  sample_m.reserve(taken);
+  for (std::size_t k = 0; k < taken; ++k) {
+    const std::size_t i = usable_points[k * usable_points.size() / taken];
+    sample_m.push_back(world_from_sensor * points[i].cast<double>());
+  }
+  return sample_m;
+}
+
+std::vector<CandidateAssessment> choose_priors(std::span<const Eigen::Vector3d> sample_m, const Pose& world_from_sensor,
+                                               Time captured_at, std::span<const PriorCandidate> candidates,
+                                               const ChoiceParameters& parameters) {
+  std::vector<CandidateAssessment> assessments(candidates.size());
+  std::vector<Cover> covers(candidates.size());
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    CandidateAssessment& assessment = assessments[c];
+    covers[c] = cover_of(candidates[c], sample_m);
+    assessment.distance_m = (candidates[c].world_from_sensor.position_m - world_from_sensor.position_m).norm();
+    assessment.age = captured_at - candidates[c].captured_at;
+    assessment.overlap =
+        share(static_cast<std::size_t>(std::count(covers[c].begin(), covers[c].end(), 1)), sample_m.size());
+    if (assessment.overlap < parameters.min_overlap) {
+      assessment.reason = "too little overlap: " + percent(assessment.overlap) + " of the scan's points, " +
+                          percent(parameters.min_overlap) + " needed";
+    }
+  }
+
+  std::vector<std::uint8_t> times_covered(sample_m.size(), 0);
+  const auto take = [&](std::size_t c, const Gain& gain, std::string reason) {
+    assessments[c].chosen = true;
+    assessments[c].gain = gain.fresh;
+    assessments[c].reason = std::move(reason);
+    for (std::size_t i = 0; i < times_covered.size(); ++i) {
+      if (covers[c][i] && times_covered[i] < 255) ++times_covered[i];
+    }
+  };
+
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    if (!candidates[c].required || !assessments[c].reason.empty()) continue;
+    take(c, gain_of(covers[c], times_covered, parameters.repeat_weight), "asked for");
+  }
+  std::size_t chosen = 0;
+  while (true) {
+    std::size_t best = candidates.size();
+    Gain best_gain;
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+      if (candidates[c].required || assessments[c].chosen || !assessments[c].reason.empty()) continue;
+      const Gain gain = gain_of(covers[c], times_covered, parameters.repeat_weight);
+      assessments[c].gain = gain.fresh;
+      const bool better = best == candidates.size() || gain.worth > best_gain.worth ||
+                          (gain.worth == best_gain.worth && candidates[c].captured_at > candidates[best].captured_at);
+      if (better) {
+        best = c;
+        best_gain = gain;
+      }
+    }
+    if (best == candidates.size() || chosen == parameters.max_priors) break;
+    ++chosen;
+    take(best, best_gain,
+         chosen == 1 ? "overlaps most: " + percent(assessments[best].overlap)
+                     : "adds " + percent(best_gain.fresh) + " to what is covered, overlaps " +
+                           percent(assessments[best].overlap));
+  }
+  for (CandidateAssessment& assessment : assessments) {
+    if (assessment.chosen || !assessment.reason.empty()) continue;
+    assessment.reason = "the limit of " + std::to_string(parameters.max_priors) +
+                        " priors was reached by scans that add more; this one would add " + percent(assessment.gain);
+  }
+  return assessments;
+}
+
+}  // namespace raywatch

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+namespace raywatch {
+
+/// A direction as angles: azimuth in -pi..pi from the x axis towards y, elevation in -pi/2..pi/2 from the xy plane.
+struct Direction {
+  float azimuth_rad = 0.0f;
+  float elevation_rad = 0.0f;
+};
+
+/// Upper bound of the error of `direction_of`, in radians.
+inline constexpr double kDirectionError_rad = 1e-6;
+
+/// The direction of a vector, in single precision: good enough to find a cell, never to decide a threshold.
+template <class Scalar>
+Direction direction_of(Scalar x, Scalar y, Scalar z) {
+  const auto xf = static_cast<float>(x), yf = static_cast<float>(y), zf = static_cast<float>(z);
+  return {std::atan2(yf, xf), std::atan2(zf, std::hypot(xf, yf))};
+}
+
+/// A partition of a band of the sphere into cells of nearly equal size: rows of one height, each cut into as many
+/// columns as keep a cell no wider than it is high. It has no seam (columns wrap around) and no crowded poles.
+class DirectionGrid {
+ public:
+  DirectionGrid() = default;
+
+  /// @param low_rad,high_rad the band of elevations. @param cell_rad the height of a row, > 0.
+  DirectionGrid(double low_rad, double high_rad, double cell_rad) : low_rad_(low_rad), cell_rad_(cell_rad) {
+    const auto rows = static_cast<std::size_t>(std::floor((high_rad - low_rad) / cell_rad)) + 1;
+    first_.reserve(rows + 1);
+    first_.push_back(0);
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double bottom = row_bottom_rad(row), top = bottom + cell_rad;
+      const double at_bottom = std::max(0.0, std::cos(bottom)), at_top = std::max(0.0, std::cos(top));
+      least_cosine_.push_back(top >= std::numbers::pi / 2 ? 0.0 : std::min(at_bottom, at_top));
+      greatest_cosine_.push_back(bottom <= 0.0 && top >= 0.0 ? 1.0 : std::max(at_bottom, at_top));
+      const double widest = 2.0 * std::numbers::pi * greatest_cosine_[row];
+      const auto columns = static_cast<std::uint32_t>(std::max(1.0, std::ceil(widest / cell_rad)));
+      first_.push_back(first_.back() + columns);
+    }
+  }
+
+  std::size_t rows() const { return first_.empty() ? 0 : first_.size() - 1; }
+  std::size_t cells() const { return first_.empty() ? 0 : first_.back(); }
+  std::uint32_t first_cell(std::size_t row) const { return first_[row]; }
+  std::uint32_t columns(std::size_t row) const { return first_[row + 1] - first_[row]; }
+  double cell_rad() const { return cell_rad_; }
+  double row_bottom_rad(std::size_t row) const { return low_rad_ + static_cast<double>(row) * cell_rad_; }
+  /// The least and the greatest cosine of an elevation in the row; never negative.
+  double least_cosine(std::size_t row) const { return least_cosine_[row]; }
+  double greatest_cosine(std::size_t row) const { return greatest_cosine_[row]; }
+
+  /// The row of an elevation as a real number: row r covers r to r + 1. May lie outside 0..rows().
+  double row_coordinate(double elevation_rad) const { return (elevation_rad - low_rad_) / cell_rad_; }
+  /// The column of an azimuth as a real number, 0..columns(row).
+  double column_coordinate(std::size_t row, double azimuth_rad) const {
+    return (azimuth_rad / (2.0 * std::numbers::pi) + 0.5) * columns(row);
+  }
+
+  std::size_t row_of(double elevation_rad) const {
+    const double row = std::clamp(row_coordinate(elevation_rad), 0.0, static_cast<double>(rows() - 1));
+    return static_cast<std::size_t>(row);
+  }
+  std::uint32_t cell_of(const Direction& direction) const {
+    const std::size_t row = row_of(direction.elevation_rad);
+    const auto column = static_cast<std::uint32_t>(std::max(0.0, column_coordinate(row, direction.azimuth_rad)));
+    return first_[row] + std::min(column, columns(row) - 1);
+  }
+
+ private:
+  double low_rad_ = 0.0;
+  double cell_rad_ = 1.0;
+  std::vector<double> least_cosine_, greatest_cosine_;
+  std::vector<std::uint32_t> first_;  ///< first cell of each row, and the number of cells
+};
+
+}  // namespace raywatch
