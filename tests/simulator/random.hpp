@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -65,6 +66,11 @@ class RandomSequence {
     return interval.from + (interval.to - interval.from) * random_.uniform(purpose_, next_++);
   }
   double normal() { return random_.normal(purpose_, next_++); }
+  Eigen::Vector3d normal_vector() {
+    const double x = normal();
+    const double y = normal();
+    return {x, y, normal()};
+  }
   bool chance(double probability) { return random_.uniform(purpose_, next_++) < probability; }
   /// In 0 .. count - 1; `count` must not be 0.
   std::uint64_t below(std::uint64_t count) { return random_.bits(purpose_, next_++) % count; }

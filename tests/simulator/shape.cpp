@@ -158,6 +158,24 @@ struct Volume {
   }
 };
 
+struct Encloses {
+  const Eigen::Vector3d& place_m;
+
+  bool operator()(const Box& box) const {
+    const Eigen::Vector3d local_m = box.world_from_box.inverse() * place_m;
+    return (local_m.cwiseAbs().array() <= box.half_size_m.array()).all();
+  }
+  bool operator()(const Cylinder& cylinder) const {
+    const Eigen::Vector3d local_m = cylinder.world_from_cylinder.inverse() * place_m;
+    return local_m.head<2>().norm() <= cylinder.radius_m && std::abs(local_m.z()) <= cylinder.half_height_m;
+  }
+  bool operator()(const Sphere& sphere) const { return (place_m - sphere.center_m).norm() <= sphere.radius_m; }
+  template <class Surface>
+  bool operator()(const Surface&) const {
+    return false;
+  }
+};
+
 struct Moved {
   const Pose& motion;
 
@@ -183,6 +201,8 @@ std::optional<double> intersect(const Ray& ray, const Shape& shape) { return std
 std::optional<Eigen::AlignedBox3d> bounds(const Shape& shape) { return std::visit(Bounds{}, shape); }
 
 double volume_m3(const Shape& shape) { return std::visit(Volume{}, shape); }
+
+bool encloses(const Shape& shape, const Eigen::Vector3d& place_m) { return std::visit(Encloses{place_m}, shape); }
 
 Shape moved(const Shape& shape, const Pose& motion) { return std::visit(Moved{motion}, shape); }
 

@@ -65,6 +65,9 @@ std::optional<Eigen::AlignedBox3d> bounds(const Shape& shape);
 /// The volume that a solid shape encloses; 0 for surfaces.
 double volume_m3(const Shape& shape);
 
+/// Whether a place lies inside a solid shape; never inside a surface.
+bool encloses(const Shape& shape, const Eigen::Vector3d& place_m);
+
 /// The shape moved by a rigid motion of the world. Planes and discs move too; terrain cannot.
 Shape moved(const Shape& shape, const Pose& motion);
 
