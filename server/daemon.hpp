@@ -15,18 +15,24 @@ namespace raywatch {
 struct DaemonConfig {
   std::filesystem::path data_dir = "raywatch-data";
   HttpConfig http;
-  unsigned workers = 0;                          ///< sites compared at once; 0: one a core
-  unsigned compare_threads = 0;                  ///< threads of one comparison; 0: one a core
+  unsigned workers = 0;          ///< sites compared at once; 0: one a core
+  unsigned compare_threads = 0;  ///< threads of one comparison; 0: one a core
   std::uint64_t index_cache_bytes = std::uint64_t{1} << 30;
-  std::uint64_t queue_limit = 1000;              ///< unfinished jobs above which uploads get 503
+  std::uint64_t queue_limit = 1000;  ///< unfinished jobs above which uploads get 503
   std::uint64_t min_free_disk_bytes = 256u << 20;
-  std::chrono::seconds future_tolerance{60};     ///< a capture time later than now by more than this is refused
-  std::chrono::hours previous_limit{24 * 365};   ///< scans older than this are no `previous` reference
+  std::chrono::seconds future_tolerance{60};    ///< a capture time later than now by more than this is refused
+  std::chrono::hours previous_limit{24 * 365};  ///< scans older than this are no `previous` reference
   ChoiceParameters choice;
 };
 
+/// How a stop went.
+enum class StopOutcome : std::uint8_t {
+  clean,                  ///< nothing runs any more
+  comparisons_abandoned,  ///< a comparison still runs; it starts again at the next start
+};
+
 /// The running program: store, workers and HTTP server. Everything is running when the constructor returns; the
-/// destructor stops cleanly: no new requests, running comparisons are put back, all is on the disk.
+/// destructor stops it and waits for the running comparisons.
 class Daemon {
  public:
   explicit Daemon(const DaemonConfig& config, std::function<Time()> now = {});
@@ -35,7 +41,8 @@ class Daemon {
   Daemon& operator=(const Daemon&) = delete;
 
   std::uint16_t port() const;
-  void stop();  ///< idempotent
+  /// Takes no new request and begins no new comparison, and gives those that run a few seconds to end. Idempotent.
+  StopOutcome stop();
 
  private:
   struct Impl;

@@ -1,0 +1,201 @@
+#include "server/comparison_runner.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/compare.hpp"
+#include "core/error.hpp"
+#include "core/panorama.hpp"
+#include "core/sensor.hpp"
+#include "server/reference_resolver.hpp"
+#include "server/stopwatch.hpp"
+#include "server/unowned_payloads.hpp"
+#include "storage/payloads.hpp"
+#include "storage/sensors.hpp"
+#include "storage/sites.hpp"
+
+namespace raywatch {
+namespace {
+
+template <class T>
+T existing(std::optional<T> found, const char* what) {
+  if (!found) throw NotFound(std::string("the ") + what + " does not exist any more");
+  return std::move(*found);
+}
+
+/// The farthest that a scan saw.
+double reach_m(const Panorama& panorama) {
+  double farthest_m = 0.0;
+  for (std::size_t cell = 0; cell < panorama.farthest.size(); ++cell) {
+    farthest_m = std::max(farthest_m, panorama.range_m(cell));
+  }
+  return farthest_m;
+}
+
+/// The entry of a comparison that runs, on the board as long as it does.
+class Progress {
+ public:
+  Progress(ProgressBoard& board, ComparisonId id) : board_(board), id_(id) { board_.set(id_, 0.0); }
+  ~Progress() { board_.remove(id_); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  void set(double share) { board_.set(id_, share); }
+
+ private:
+  ProgressBoard& board_;
+  ComparisonId id_;
+};
+
+ComparisonCandidate candidate_record(const ScanRecord& scan, const CandidateAssessment& assessment) {
+  return {.scan = scan.id,
+          .vantage = scan.vantage,
+          .distance_m = assessment.distance_m,
+          .age = assessment.age,
+          .overlap = assessment.overlap,
+          .gain = assessment.gain,
+          .chosen = assessment.chosen,
+          .reason = assessment.reason};
+}
+
+}  // namespace
+
+/// What a job is about.
+struct ComparisonRunner::Subject {
+  ComparisonRecord comparison;
+  ScanRecord scan;
+  Site site;
+};
+
+/// A scan that takes part.
+struct ComparisonRunner::Loaded {
+  std::shared_ptr<const IndexedScan> indexed;
+  Pose world_from_sensor;  ///< local
+  Time captured_at;
+  SensorModel sensor;
+
+  ScanView view() const { return {indexed->points, indexed->index, world_from_sensor, captured_at, sensor}; }
+};
+
+/// The scans that were offered, and what was found about each.
+struct ComparisonRunner::Choice {
+  std::vector<ScanRecord> offered;
+  std::vector<CandidateAssessment> assessments;
+};
+
+ComparisonRunner::ComparisonRunner(Store& store, IndexCache& cache, ProgressBoard& progress,
+                                   const ComparisonRunnerConfig& config, std::function<Time()> now)
+    : store_(store), cache_(cache), progress_(progress), config_(config), now_(std::move(now)) {}
+
+void ComparisonRunner::run(const Job& job, tbb::task_arena& arena) {
+  Stopwatch watch;
+  Progress progress(progress_, job.comparison);
+  ComparisonResult result;
+
+  const Subject subject = read_subject(job);
+  const Loaded scan = load(subject.scan, subject, arena);
+  double load_ms = watch.lap_ms();
+  progress.set(0.1);
+
+  const Choice choice = choose(subject, scan);
+  result.timings_ms["choose"] = watch.lap_ms();
+  progress.set(0.2);
+
+  std::vector<Loaded> priors;
+  for (std::size_t i = 0; i < choice.offered.size(); ++i) {
+    const ScanRecord& offered = choice.offered[i];
+    const CandidateAssessment& assessment = choice.assessments[i];
+    result.candidates.push_back(candidate_record(offered, assessment));
+    if (!assessment.chosen) continue;
+    priors.push_back(load(offered, subject, arena));
+    result.priors.push_back({.scan = offered.id, .vantage = offered.vantage, .overlap = assessment.overlap});
+  }
+  load_ms += watch.lap_ms();
+  result.timings_ms["load"] = load_ms;
+  progress.set(0.5);
+
+  std::vector<ScanView> views;
+  for (const Loaded& prior : priors) views.push_back(prior.view());
+  const CompareParameters& parameters = subject.comparison.parameters;
+  Detection detection = arena.execute([&] { return detect(scan.view(), views, parameters); });
+  result.timings_ms["detect"] = watch.lap_ms();
+  progress.set(0.8);
+
+  Comparison comparison =
+      arena.execute([&] { return form_changes(scan.view(), views, parameters, std::move(detection)); });
+  result.timings_ms["cluster"] = watch.lap_ms();
+  result.timings_ms["total"] = watch.total_ms();
+  progress.set(0.9);
+
+  for (std::size_t i = 0; i < priors.size(); ++i) {
+    result.priors[i].added = comparison.priors[i].added;
+    result.priors[i].removed = comparison.priors[i].removed;
+  }
+  std::ranges::copy(comparison.counts, result.counts.begin());
+  result.testable = comparison.testable;
+  result.changes = std::move(comparison.changes);
+  result.warnings = std::move(comparison.warnings);
+  commit(job, subject, std::move(result),
+         {std::move(comparison.classes), std::move(comparison.free), std::move(comparison.supported),
+          std::move(comparison.change_of), std::move(comparison.prior_points)});
+}
+
+ComparisonRunner::Subject ComparisonRunner::read_subject(const Job& job) const {
+  return store_.read([&](const Snapshot& snapshot) -> Subject {
+    return {existing(find_comparison(snapshot, job.comparison), "comparison"),
+            existing(find_scan(snapshot, job.scan), "scan"), existing(find_site(snapshot, job.site), "site")};
+  });
+}
+
+ComparisonRunner::Loaded ComparisonRunner::load(const ScanRecord& scan, const Subject& subject,
+                                                tbb::task_arena& arena) {
+  const Sensor sensor = store_.read(
+      [&](const Snapshot& snapshot) { return existing(find_sensor(snapshot, scan.sensor), "sensor of the scan"); });
+  const SensorModel model = merged(sensor.known, scan.estimated);
+  const UsableRange usable = usable_range(model, subject.comparison.parameters);
+  const auto build = [&]() -> IndexedScan {
+    PointCloud points = store_.payloads().scan_points(scan.payload);
+    PriorIndex index = arena.execute([&] { return PriorIndex::build(points, usable); });
+    return {std::move(points), std::move(index)};
+  };
+  return {cache_.get({scan.id, usable}, build), local_pose(scan, subject.site), scan.captured_at, model};
+}
+
+ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const Loaded& scan) const {
+  const Payloads& payloads = store_.payloads();
+  const Reference& reference = subject.comparison.reference;
+  // Two scans that see equally far overlap nowhere when they are farther apart than this.
+  const double radius_m = 2.0 * reach_m(payloads.scan_panorama(subject.scan.payload));
+  const ReferenceLimits limits{.radius_m = radius_m,
+                               .contemporary_tolerance = subject.comparison.parameters.contemporary_tolerance,
+                               .previous_limit = config_.previous_limit};
+  Choice choice;
+  choice.offered = store_.read([&](const Snapshot& snapshot) {
+    return resolve_reference(snapshot, subject.scan, subject.site, reference, limits);
+  });
+  std::vector<PriorCandidate> candidates;
+  for (const ScanRecord& offered : choice.offered) {
+    candidates.push_back({.world_from_sensor = local_pose(offered, subject.site),
+                          .captured_at = offered.captured_at,
+                          .coverage = payloads.scan_panorama(offered.payload),
+                          .required = is_explicit(reference)});
+  }
+  const std::vector<Eigen::Vector3d> sample_m = sample_world_points(
+      scan.indexed->points, scan.world_from_sensor, scan.indexed->index.usable(), config_.choice.sample_points);
+  choice.assessments = choose_priors(sample_m, scan.world_from_sensor, scan.captured_at, candidates, config_.choice);
+  return choice;
+}
+
+void ComparisonRunner::commit(const Job& job, const Subject& subject, ComparisonResult result,
+                              ComparisonPoints points) {
+  UnownedPayloads written(store_.payloads());
+  result.payload = written.add(store_.payloads().put_comparison(subject.site.id, subject.scan.captured_at, points));
+  const Time now = now_();
+  const bool is_first =
+      store_.write([&](Transaction& transaction) { return finish_job(transaction, job, result, now); });
+  if (is_first) written.keep();
+}
+
+}  // namespace raywatch

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <tbb/task_arena.h>
+
+#include <functional>
+#include <memory>
+
+#include "core/choose_priors.hpp"
+#include "core/time.hpp"
+#include "server/index_cache.hpp"
+#include "server/progress_board.hpp"
+#include "storage/comparisons.hpp"
+#include "storage/scans.hpp"
+#include "storage/store.hpp"
+
+namespace raywatch {
+
+struct ComparisonRunnerConfig {
+  Duration previous_limit{};  ///< scans older than this are no `previous` reference
+  ChoiceParameters choice;
+};
+
+/// Carries out queued comparisons: the way of a scan from its priors to its committed changes. Thread-safe.
+class ComparisonRunner {
+ public:
+  ComparisonRunner(Store& store, IndexCache& cache, ProgressBoard& progress, const ComparisonRunnerConfig& config,
+                   std::function<Time()> now);
+
+  /// Runs a started job and commits its result, once. Computes in `arena`; must not be called from inside it.
+  /// @throws core/error.hpp when it cannot; nothing is stored then and the job is still started.
+  void run(const Job& job, tbb::task_arena& arena);
+
+ private:
+  struct Subject;
+  struct Choice;
+  struct Loaded;
+
+  Subject read_subject(const Job& job) const;
+  Loaded load(const ScanRecord& scan, const Subject& subject, tbb::task_arena& arena);
+  Choice choose(const Subject& subject, const Loaded& scan) const;
+  void commit(const Job& job, const Subject& subject, ComparisonResult result, ComparisonPoints points);
+
+  Store& store_;
+  IndexCache& cache_;
+  ProgressBoard& progress_;
+  ComparisonRunnerConfig config_;
+  std::function<Time()> now_;
+};
+
+}  // namespace raywatch

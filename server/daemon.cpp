@@ -1,0 +1,180 @@
+#include "server/daemon.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+#include <utility>
+#include <variant>
+
+#include "core/error.hpp"
+#include "server/comparison_runner.hpp"
+#include "server/index_cache.hpp"
+#include "server/ingest_service.hpp"
+#include "server/job_signal.hpp"
+#include "server/machine.hpp"
+#include "server/progress_board.hpp"
+#include "server/reference_resolver.hpp"
+#include "server/workers.hpp"
+#include "storage/comparisons.hpp"
+#include "storage/payloads.hpp"
+#include "storage/sites.hpp"
+
+namespace raywatch {
+namespace {
+
+/// How long running comparisons are waited for at a stop.
+constexpr std::chrono::seconds kStopPatience{3};
+
+unsigned or_one_a_core(unsigned count) { return count > 0 ? count : std::max(1u, std::thread::hardware_concurrency()); }
+
+HttpConfig with_spool(HttpConfig http, const std::filesystem::path& data_dir) {
+  if (http.spool_dir.empty()) http.spool_dir = data_dir / "spool";
+  return http;
+}
+
+bool all_ended(const std::vector<ComparisonRecord>& comparisons) {
+  return std::ranges::all_of(comparisons, [](const ComparisonRecord& comparison) {
+    return comparison.state == ComparisonState::done || comparison.state == ComparisonState::failed;
+  });
+}
+
+/// Puts back what an earlier process started and did not end.
+std::uint64_t recover(Store& store) {
+  return store.write([](Transaction& transaction) { return requeue_started_jobs(transaction); });
+}
+
+}  // namespace
+
+/// The members are in the order of their start; they stop in the reverse one.
+struct Daemon::Impl {
+  Impl(const DaemonConfig& given, std::function<Time()> clock)
+      : config(given),
+        now(std::move(clock)),
+        store({.data_dir = config.data_dir, .min_free_bytes = config.min_free_disk_bytes}),
+        cache(config.index_cache_bytes),
+        ingest(store,
+               {.queue_limit = config.queue_limit, .future_tolerance = config.future_tolerance, .file_limits = {}},
+               now),
+        runner(store, cache, progress, {.previous_limit = config.previous_limit, .choice = config.choice}, now),
+        requeued(recover(store)),
+        workers(store, runner, signal,
+                {.workers = or_one_a_core(config.workers), .compare_threads = or_one_a_core(config.compare_threads)},
+                now),
+        http(with_spool(config.http, config.data_dir), {store, commands(), [this] { return status(); }, now}) {
+    if (requeued > 0) spdlog::info("{} comparisons were interrupted and start again", requeued);
+    http.start();
+  }
+
+  Commands commands();
+  UploadResult ingest_file(const Upload& upload);
+  ComparisonRecord compare_again(ScanId scan, const Reference& reference, const CompareParameters& parameters);
+  bool wait_for_scan(ScanId scan, std::chrono::milliseconds patience);
+  void delete_scan(ScanId scan);
+  DaemonStatus status() const;
+  StopOutcome stop();
+
+  const DaemonConfig config;
+  const std::function<Time()> now;
+  Store store;
+  IndexCache cache;
+  ProgressBoard progress;
+  JobSignal signal;
+  IngestService ingest;
+  std::atomic<std::uint64_t> scans_ingested{0};
+  ComparisonRunner runner;
+  const std::uint64_t requeued;
+  Workers workers;
+  HttpServer http;
+};
+
+Commands Daemon::Impl::commands() {
+  return {.ingest = [this](const Upload& upload) { return ingest_file(upload); },
+          .compare = [this](ScanId scan, const Reference& reference,
+                            const CompareParameters& parameters) { return compare_again(scan, reference, parameters); },
+          .wait_for_scan = [this](ScanId scan,
+                                  std::chrono::milliseconds patience) { return wait_for_scan(scan, patience); },
+          .progress = [this](ComparisonId id) { return progress.of(id); },
+          .delete_scan = [this](ScanId scan) { delete_scan(scan); },
+          .backup = [this](const std::filesystem::path& directory) { store.backup(directory); }};
+}
+
+UploadResult Daemon::Impl::ingest_file(const Upload& upload) {
+  UploadResult result = ingest.ingest(upload);
+  if (result.already_stored) return result;
+  scans_ingested += result.scans.size();
+  signal.notify();
+  return result;
+}
+
+ComparisonRecord Daemon::Impl::compare_again(ScanId scan, const Reference& reference,
+                                             const CompareParameters& parameters) {
+  ComparisonRecord queued = store.write([&](Transaction& transaction) {
+    refuse_when_full(transaction, config.queue_limit);
+    const std::optional<ScanRecord> record = find_scan(transaction, scan);
+    if (!record) throw NotFound("scan " + std::to_string(scan.value) + " does not exist");
+    // Scans that are named must be there and usable; the others are looked for when the job runs.
+    if (is_explicit(reference)) {
+      resolve_reference(transaction, *record, *find_site(transaction, record->site), reference, {});
+    }
+    return insert_comparison(transaction, scan, reference, parameters, now());
+  });
+  signal.notify();
+  return queued;
+}
+
+bool Daemon::Impl::wait_for_scan(ScanId scan, std::chrono::milliseconds patience) {
+  const auto deadline = JobSignal::Clock::now() + patience;
+  for (;;) {
+    const std::uint64_t seen = signal.generation();
+    if (store.read([&](const Snapshot& snapshot) { return all_ended(comparisons_of(snapshot, scan)); })) return true;
+    if (!signal.wait_past(seen, deadline)) return false;
+  }
+}
+
+void Daemon::Impl::delete_scan(ScanId scan) {
+  const std::vector<PayloadRef> payloads =
+      store.write([&](Transaction& transaction) { return raywatch::delete_scan(transaction, scan); });
+  for (const PayloadRef& payload : payloads) store.payloads().remove(payload);
+  cache.forget(scan);
+}
+
+DaemonStatus Daemon::Impl::status() const {
+  const WorkersStatus working = workers.status();
+  const IndexCacheStatus cached = cache.status();
+  const std::uint64_t free_bytes = free_disk_bytes(config.data_dir);
+  return {.writable = free_bytes >= config.min_free_disk_bytes && is_writable(config.data_dir),
+          .workers_alive = working.alive,
+          .workers_expected = working.expected,
+          .queue_length = store.read([](const Snapshot& snapshot) { return unfinished_jobs(snapshot); }),
+          .queue_limit = config.queue_limit,
+          .index_cache_bytes = cached.bytes,
+          .index_cache_limit_bytes = config.index_cache_bytes,
+          .index_cache_hits = cached.hits,
+          .index_cache_misses = cached.misses,
+          .scans_ingested = scans_ingested,
+          .comparisons_finished = working.finished,
+          .comparisons_failed = working.failed,
+          .free_disk_bytes = free_bytes,
+          .resident_bytes = resident_memory_bytes()};
+}
+
+StopOutcome Daemon::Impl::stop() {
+  const auto deadline = std::chrono::steady_clock::now() + kStopPatience;
+  workers.request_stop();
+  signal.close();
+  http.stop();
+  return workers.wait_stopped(deadline) ? StopOutcome::clean : StopOutcome::comparisons_abandoned;
+}
+
+Daemon::Daemon(const DaemonConfig& config, std::function<Time()> now)
+    : impl_(std::make_unique<Impl>(config, now ? std::move(now) : std::chrono::system_clock::now)) {}
+
+Daemon::~Daemon() { stop(); }
+
+std::uint16_t Daemon::port() const { return impl_->http.port(); }
+
+StopOutcome Daemon::stop() { return impl_->stop(); }
+
+}  // namespace raywatch

@@ -1,0 +1,116 @@
+#include "server/file_comparison.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/prior_index.hpp"
+#include "core/sensor.hpp"
+#include "server/stopwatch.hpp"
+#include "storage/formats/scan_file.hpp"
+#include "storage/formats/side_car.hpp"
+
+namespace raywatch {
+namespace {
+
+FileScan read_one_scan(const std::filesystem::path& file) {
+  std::vector<DecodedScan> scans = read_scan_file(file, read_side_car(file));
+  if (scans.size() != 1) {
+    throw InvalidInput(file.string() + ": holds " + std::to_string(scans.size()) + " scans; one is needed");
+  }
+  DecodedScan& scan = scans.front();
+  if (!scan.world_from_sensor) {
+    throw InvalidInput(file.string() + ": nothing says from where it was taken. Write the pose into " + file.string() +
+                       R"(.json: {"pose": {"position_m": [x, y, z], "orientation_xyzw": [x, y, z, w]}})" +
+                       " (an identity VIEWPOINT counts as absent)");
+  }
+  return {std::move(scan.points), *scan.world_from_sensor, scan.captured_at};
+}
+
+/// The scan first, then the priors.
+std::vector<FileScan> read_all(const FileComparisonRequest& request) {
+  std::vector<std::filesystem::path> files = {request.scan};
+  files.insert(files.end(), request.priors.begin(), request.priors.end());
+  std::vector<FileScan> scans(files.size());
+  tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) { scans[i] = read_one_scan(files[i]); });
+  return scans;
+}
+
+/// Map coordinates are too large for float; near zero nothing is moved, so that results keep the user's numbers.
+Eigen::Vector3d common_origin_m(const Pose& world_from_sensor) {
+  constexpr double kFar_m = 10e3;
+  const Eigen::Vector3d& position_m = world_from_sensor.position_m;
+  return position_m.norm() > kFar_m ? Eigen::Vector3d(position_m.array().round()) : Eigen::Vector3d::Zero();
+}
+
+struct IndexedFile {
+  PriorIndex index;
+  SensorModel sensor;
+};
+
+/// A sentinel range is only seen once the scan is indexed; scans that have one are indexed again without it.
+IndexedFile index_scan(const PointCloud& points, const CompareParameters& parameters) {
+  PriorIndex index = PriorIndex::build(points, usable_range({}, parameters));
+  SensorModel sensor = estimate_sensor(points, index);
+  const UsableRange usable = usable_range(sensor, parameters);
+  if (usable.no_return_m) index = PriorIndex::build(points, usable);
+  return {std::move(index), sensor};
+}
+
+std::vector<IndexedFile> index_all(const std::vector<FileScan>& scans, const CompareParameters& parameters) {
+  std::vector<std::optional<IndexedFile>> built(scans.size());
+  tbb::parallel_for(std::size_t{0}, scans.size(),
+                    [&](std::size_t i) { built[i].emplace(index_scan(scans[i].points, parameters)); });
+  std::vector<IndexedFile> indexed;
+  for (std::optional<IndexedFile>& file : built) indexed.push_back(std::move(*file));
+  return indexed;
+}
+
+/// Times for all, so that what has none keeps its order: priors before the scan, farther than the tolerance.
+std::vector<Time> capture_times(const std::vector<FileScan>& scans, Duration tolerance) {
+  const Duration apart = tolerance + Duration(1);
+  std::optional<Time> scan_time = scans.front().captured_at;
+  if (!scan_time) {
+    Time latest{};
+    for (const FileScan& prior : scans) latest = std::max(latest, prior.captured_at.value_or(Time{}));
+    scan_time = latest + apart;
+  }
+  std::vector<Time> times = {*scan_time};
+  for (std::size_t i = 1; i < scans.size(); ++i) times.push_back(scans[i].captured_at.value_or(*scan_time - apart));
+  return times;
+}
+
+}  // namespace
+
+FileComparison compare_files(const FileComparisonRequest& request) {
+  Stopwatch watch;
+  FileComparison done;
+  std::vector<FileScan> scans = read_all(request);
+  done.origin_m = common_origin_m(scans.front().world_from_sensor);
+  for (FileScan& scan : scans) scan.world_from_sensor.position_m -= done.origin_m;
+  const std::vector<Time> times = capture_times(scans, request.parameters.contemporary_tolerance);
+  done.timings.read_ms = watch.lap_ms();
+
+  const std::vector<IndexedFile> indexed = index_all(scans, request.parameters);
+  done.timings.index_ms = watch.lap_ms();
+
+  std::vector<ScanView> views;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    views.push_back({scans[i].points, indexed[i].index, scans[i].world_from_sensor, times[i], indexed[i].sensor});
+  }
+  const std::span<const ScanView> priors = std::span(views).subspan(1);
+  Detection detection = detect(views.front(), priors, request.parameters);
+  done.timings.detect_ms = watch.lap_ms();
+
+  done.result = form_changes(views.front(), priors, request.parameters, std::move(detection));
+  done.timings.cluster_ms = watch.lap_ms();
+
+  done.scan = std::move(scans.front());
+  done.priors.assign(std::make_move_iterator(scans.begin() + 1), std::make_move_iterator(scans.end()));
+  return done;
+}
+
+}  // namespace raywatch

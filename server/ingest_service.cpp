@@ -1,0 +1,168 @@
+#include "server/ingest_service.hpp"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/panorama.hpp"
+#include "core/profile.hpp"
+#include "core/sensor.hpp"
+#include "server/unowned_payloads.hpp"
+#include "storage/comparisons.hpp"
+#include "storage/payloads.hpp"
+#include "storage/sensors.hpp"
+#include "storage/sites.hpp"
+
+namespace raywatch {
+namespace {
+
+/// A scan on its way into the store.
+struct ArrivingScan {
+  ScanRecord record;
+  PointCloud points;
+};
+
+struct SensorAndSite {
+  Sensor sensor;
+  Site site;
+};
+
+SensorAndSite find_sensor_and_site(const Snapshot& snapshot, const std::string& name) {
+  std::optional<Sensor> sensor = find_sensor(snapshot, name);
+  if (!sensor) throw NotFound("there is no sensor \"" + name + "\"");
+  std::optional<Site> site = find_site(snapshot, sensor->site);
+  if (!site) throw NotFound("the site of sensor \"" + name + "\" does not exist");
+  return {std::move(*sensor), std::move(*site)};
+}
+
+void check_complete(const DecodedScan& scan, Time latest_allowed) {
+  std::vector<FieldError> missing;
+  if (!scan.world_from_sensor) {
+    missing.push_back({"pose", "neither the query, the file nor the sensor says from where the scan was taken"});
+  }
+  if (!scan.captured_at) missing.push_back({"captured_at", "neither the query nor the file says when it was taken"});
+  if (!missing.empty()) throw InvalidInput("The scan is incomplete: " + missing.front().message + ".", missing);
+  if (*scan.captured_at > latest_allowed) {
+    const std::string message = format_rfc3339(*scan.captured_at) + " lies in the future";
+    throw InvalidInput("The capture time " + message + ".", {{"captured_at", message}});
+  }
+}
+
+/// Several scans of one file were taken one after the other; a file has one time, and no two scans of a sensor may
+/// share theirs.
+constexpr Duration kApartInFile = std::chrono::microseconds(1);
+
+ArrivingScan arriving_scan(DecodedScan decoded, const Sensor& sensor, const std::string& sha256) {
+  ArrivingScan scan;
+  scan.points = std::move(decoded.points);
+  scan.record.site = sensor.site;
+  scan.record.sensor = sensor.id;
+  scan.record.captured_at = *decoded.captured_at;
+  scan.record.points = scan.points.size();
+  scan.record.sha256 = sha256;
+  scan.record.pose = *decoded.world_from_sensor;
+  scan.record.estimated = estimate_sensor(scan.points);
+  scan.record.grid = scan.points.grid;
+  scan.record.has_intensity = !scan.points.intensity.empty();
+  return scan;
+}
+
+/// The stored scans, when all of them are there with the same bytes.
+/// @throws Conflict when one is there with other bytes.
+std::optional<std::vector<ScanRecord>> find_stored(const Snapshot& snapshot, const std::vector<ArrivingScan>& scans) {
+  std::vector<ScanRecord> stored;
+  for (const ArrivingScan& scan : scans) {
+    std::optional<ScanRecord> found = find_scan(snapshot, scan.record.sensor, scan.record.captured_at);
+    if (!found) continue;
+    if (found->sha256 != scan.record.sha256) {
+      throw Conflict("scan " + std::to_string(found->id.value) + " is of the same sensor and time (" +
+                     format_rfc3339(found->captured_at) + ") and has other bytes");
+    }
+    stored.push_back(std::move(*found));
+  }
+  if (stored.size() != scans.size()) return std::nullopt;
+  return stored;
+}
+
+/// Stores the records, their comparisons with what was before, and what they show about the sensor.
+std::vector<ScanRecord> insert_all(Transaction& transaction, const std::vector<ArrivingScan>& scans,
+                                   const CompareParameters& parameters, Time now) {
+  std::vector<ScanRecord> stored;
+  for (const ArrivingScan& scan : scans) {
+    stored.push_back(insert_scan(transaction, scan.record));
+    insert_comparison(transaction, stored.back().id, PreviousReference{}, parameters, now);
+    const std::optional<Sensor> sensor = find_sensor(transaction, scan.record.sensor);
+    if (!sensor) throw NotFound("the sensor was deleted");
+    set_estimated_model(transaction, sensor->id, merged(sensor->estimated, scan.record.estimated));
+  }
+  return stored;
+}
+
+template <class Semaphore>
+class Slot {
+ public:
+  explicit Slot(Semaphore& semaphore) : semaphore_(semaphore) { semaphore_.acquire(); }
+  ~Slot() { semaphore_.release(); }
+  Slot(const Slot&) = delete;
+  Slot& operator=(const Slot&) = delete;
+
+ private:
+  Semaphore& semaphore_;
+};
+
+}  // namespace
+
+void refuse_when_full(const Snapshot& snapshot, std::uint64_t limit) {
+  constexpr std::chrono::seconds kRetryAfter{2};
+  const std::uint64_t unfinished = unfinished_jobs(snapshot);
+  if (unfinished < limit) return;
+  throw Overloaded(std::to_string(unfinished) + " comparisons are waiting", kRetryAfter);
+}
+
+IngestService::IngestService(Store& store, const IngestConfig& config, std::function<Time()> now)
+    : store_(store), config_(config), now_(std::move(now)) {}
+
+UploadResult IngestService::ingest(const Upload& upload) {
+  const Slot slot(decoders_);
+  const Time now = now_();
+  const SensorAndSite place = store_.read([&](const Snapshot& snapshot) {
+    refuse_when_full(snapshot, config_.queue_limit);
+    return find_sensor_and_site(snapshot, upload.hints.sensor.value_or(""));
+  });
+
+  ScanHints hints = upload.hints;
+  hints.fixed_pose = place.sensor.pose;
+  std::vector<DecodedScan> decoded = read_scan_file(upload.file, hints, config_.file_limits);
+  std::vector<ArrivingScan> scans;
+  for (std::size_t i = 0; i < decoded.size(); ++i) {
+    check_complete(decoded[i], now + config_.future_tolerance);
+    const std::string part = decoded.size() == 1 ? "" : "#" + std::to_string(i + 1);
+    *decoded[i].captured_at += kApartInFile * i;
+    scans.push_back(arriving_scan(std::move(decoded[i]), place.sensor, upload.sha256 + part));
+    scans.back().record.received_at = now;
+  }
+  decoded.clear();
+
+  const auto find_in_store = [&](const Snapshot& snapshot) { return find_stored(snapshot, scans); };
+  if (auto stored = store_.read(find_in_store)) return {std::move(*stored), true};
+
+  const CompareParameters defaults = default_parameters(place.site.profile, Grouping::consensus);
+  UnownedPayloads written(store_.payloads());
+  for (ArrivingScan& scan : scans) {
+    const UsableRange usable = usable_range(merged(place.sensor.known, scan.record.estimated), defaults);
+    scan.record.payload = written.add(store_.payloads().put_scan(place.site.id, scan.record.captured_at, scan.points,
+                                                                 make_panorama(scan.points, usable)));
+    scan.record.stored_bytes = store_.payloads().stored_bytes(scan.record.payload);
+  }
+  UploadResult result = store_.write([&](Transaction& transaction) -> UploadResult {
+    if (auto stored = find_in_store(transaction)) return {std::move(*stored), true};
+    refuse_when_full(transaction, config_.queue_limit);
+    return {insert_all(transaction, scans, defaults, now), false};
+  });
+  if (!result.already_stored) written.keep();
+  return result;
+}
+
+}  // namespace raywatch

@@ -1,0 +1,25 @@
+#include "server/machine.hpp"
+
+#include <unistd.h>
+
+#include <fstream>
+#include <system_error>
+
+namespace raywatch {
+
+std::uint64_t resident_memory_bytes() {
+  std::ifstream statm("/proc/self/statm");
+  std::uint64_t all_pages = 0, resident_pages = 0;
+  if (!(statm >> all_pages >> resident_pages)) return 0;
+  return resident_pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::uint64_t free_disk_bytes(const std::filesystem::path& directory) {
+  std::error_code failed;
+  const std::filesystem::space_info space = std::filesystem::space(directory, failed);
+  return failed ? 0 : space.available;
+}
+
+bool is_writable(const std::filesystem::path& directory) { return ::access(directory.c_str(), W_OK | X_OK) == 0; }
+
+}  // namespace raywatch

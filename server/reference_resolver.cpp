@@ -1,0 +1,80 @@
+#include "server/reference_resolver.hpp"
+
+#include <optional>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace raywatch {
+namespace {
+
+/// `time - by`, or the first moment there is.
+Time earlier(Time time, Duration by) {
+  return time.time_since_epoch() < Time::min().time_since_epoch() + by ? Time::min() : time - by;
+}
+
+/// What one reference offers from one vantage, and from names.
+class Resolver {
+ public:
+  Resolver(const Snapshot& snapshot, const ScanRecord& scan, const Site& site, const ReferenceLimits& limits)
+      : snapshot_(snapshot), scan_(scan), site_(site), limits_(limits) {}
+
+  std::vector<ScanRecord> operator()(const PreviousReference&) const {
+    const Time before = earlier(scan_.captured_at, limits_.contemporary_tolerance);
+    const Time not_before = earlier(scan_.captured_at, limits_.previous_limit);
+    return from_vantages(
+        [&](const Vantage& vantage) { return latest_scan(snapshot_, vantage.id, not_before, before); });
+  }
+
+  std::vector<ScanRecord> operator()(const WindowReference& window) const {
+    return from_vantages([&](const Vantage& vantage) {
+      std::optional<ScanRecord> latest = latest_scan(snapshot_, vantage.id, window.from, window.to);
+      const bool itself = latest && latest->id == scan_.id;
+      return itself ? latest_scan(snapshot_, vantage.id, window.from, scan_.captured_at) : latest;
+    });
+  }
+
+  std::vector<ScanRecord> operator()(const ExplicitReference& named) const {
+    std::vector<ScanRecord> scans;
+    for (const ScanId id : named.scans) scans.push_back(named_scan(id));
+    return scans;
+  }
+
+ private:
+  template <class Offer>
+  std::vector<ScanRecord> from_vantages(const Offer& offer) const {
+    std::vector<ScanRecord> scans;
+    const Eigen::Vector3d position_m = local_pose(scan_, site_).position_m;
+    for (const Vantage& vantage : nearest_vantages(snapshot_, site_.id, position_m, kMaxVantages)) {
+      if ((vantage.position_m - position_m).norm() > limits_.radius_m) break;
+      std::optional<ScanRecord> offered = offer(vantage);
+      if (offered) scans.push_back(std::move(*offered));
+    }
+    return scans;
+  }
+
+  ScanRecord named_scan(ScanId id) const {
+    const std::string name = "scan " + std::to_string(id.value);
+    std::optional<ScanRecord> found = find_scan(snapshot_, id);
+    if (!found) throw NotFound(name + " does not exist");
+    if (found->id == scan_.id) throw InvalidInput(name + " cannot be compared with itself", {{"reference", name}});
+    if (found->site != site_.id) throw InvalidInput(name + " is of another site", {{"reference", name}});
+    return std::move(*found);
+  }
+
+  const Snapshot& snapshot_;
+  const ScanRecord& scan_;
+  const Site& site_;
+  const ReferenceLimits& limits_;
+};
+
+}  // namespace
+
+std::vector<ScanRecord> resolve_reference(const Snapshot& snapshot, const ScanRecord& scan, const Site& site,
+                                          const Reference& reference, const ReferenceLimits& limits) {
+  return std::visit(Resolver(snapshot, scan, site, limits), reference);
+}
+
+bool is_explicit(const Reference& reference) { return std::holds_alternative<ExplicitReference>(reference); }
+
+}  // namespace raywatch

@@ -1,0 +1,75 @@
+#include "server/settings.hpp"
+
+#include "config/config_reader.hpp"
+
+namespace raywatch {
+namespace {
+
+void bind_storage(ConfigReader& reader, DaemonConfig& config) {
+  reader.path("storage.data_dir", config.data_dir);
+  reader.mebibytes("storage.min_free_disk_mib", config.min_free_disk_bytes, {});
+}
+
+void bind_http(ConfigReader& reader, HttpConfig& config) {
+  reader.text("http.host", config.host);
+  reader.whole("http.port", config.port, {});
+  reader.flag("http.allow_remote", config.allow_remote);
+  reader.whole("http.threads", config.threads, {.min = 2, .max = 1024});
+  reader.mebibytes("http.max_body_mib", config.max_body_bytes, {.min = 1, .max = 4096});
+  reader.whole("http.max_wait_s", config.max_wait_s, {.min = 0, .max = 3600});
+}
+
+void bind_ingest(ConfigReader& reader, DaemonConfig& config) {
+  reader.whole("ingest.queue_limit", config.queue_limit, {.min = 1, .max = 1'000'000});
+  reader.duration("ingest.future_tolerance_s", config.future_tolerance, {.min = 0, .max = 86'400});
+}
+
+void bind_compare(ConfigReader& reader, DaemonConfig& config) {
+  reader.whole("compare.workers", config.workers, {.min = 0, .max = 256});
+  reader.whole("compare.threads", config.compare_threads, {.min = 0, .max = 256});
+  reader.mebibytes("compare.index_cache_mib", config.index_cache_bytes, {});
+  reader.duration("compare.previous_limit_h", config.previous_limit, {.min = 1, .max = 876'000});
+}
+
+void bind_choice(ConfigReader& reader, ChoiceParameters& choice) {
+  reader.whole("priors.max_priors", choice.max_priors, {.min = 1, .max = 64});
+  reader.whole("priors.sample_points", choice.sample_points, {.min = 100, .max = 100'000});
+  reader.real("priors.min_overlap", choice.min_overlap, {.min = 0.0, .max = 1.0});
+  reader.real("priors.repeat_weight", choice.repeat_weight, {.min = 0.0, .max = 1.0});
+}
+
+void bind_log(ConfigReader& reader, LogConfig& config) {
+  reader.one_of("log.level", config.level, kLogLevels);
+  reader.one_of("log.format", config.format, kLogFormats);
+}
+
+void bind_all(ConfigReader& reader, Settings& settings) {
+  bind_storage(reader, settings.daemon);
+  bind_http(reader, settings.daemon.http);
+  bind_ingest(reader, settings.daemon);
+  bind_compare(reader, settings.daemon);
+  bind_choice(reader, settings.daemon.choice);
+  bind_log(reader, settings.log);
+}
+
+Settings read_all(ConfigReader reader) {
+  Settings settings;
+  bind_all(reader, settings);
+  reader.finish();
+  return settings;
+}
+
+}  // namespace
+
+Settings read_settings(const std::filesystem::path& file) { return read_all(ConfigReader::open(file)); }
+
+Settings parse_settings(std::string_view toml, const std::string& name) { return read_all(ConfigReader(toml, name)); }
+
+std::vector<std::string> absent_settings(std::string_view toml, const std::string& name) {
+  ConfigReader reader(toml, name);
+  Settings ignored;
+  bind_all(reader, ignored);
+  return reader.absent_keys();
+}
+
+}  // namespace raywatch
