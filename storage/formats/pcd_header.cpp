@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "storage/formats/placement.hpp"
 #include "storage/formats/text_lines.hpp"
 
 namespace raywatch {
@@ -114,7 +115,7 @@ std::optional<Pose> parse_viewpoint(const Entry& entry) {
   std::array<double, 7> v{};
   std::ranges::transform(entry.values, v.begin(), [&](std::string_view word) { return parse_real(word, entry.line); });
   if (v == std::array<double, 7>{0, 0, 0, 1, 0, 0, 0}) return std::nullopt;
-  return checked_pose({v[0], v[1], v[2]}, {v[4], v[5], v[6], v[3]}, "VIEWPOINT");
+  return checked_pose_at(at_line(entry.line) + "VIEWPOINT", {v[0], v[1], v[2]}, {v[4], v[5], v[6], v[3]});
 }
 
 PcdData parse_data(const Entry& entry) {

@@ -23,6 +23,16 @@ Placement placement_of(const ScanHints& hints, Frame usual_frame, const std::opt
   return placement;
 }
 
+Pose checked_pose_at(const std::string& place, const Eigen::Vector3d& position_m,
+                     const Eigen::Vector4d& orientation_xyzw) {
+  try {
+    return checked_pose(position_m, orientation_xyzw, place.c_str());
+  } catch (const InvalidInput& error) {
+    const std::string detail = error.fields().empty() ? error.what() : error.fields().front().message;
+    throw InvalidInput(place + ": " + detail, {{"pose", detail}});
+  }
+}
+
 void throw_not_a_float(double value, std::size_t point) {
   std::ostringstream message;
   message << "point " << point << " (counted from 0): the value " << value << " is too large for a 32-bit float";

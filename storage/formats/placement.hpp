@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "core/point_cloud.hpp"
 #include "core/pose.hpp"
@@ -25,6 +26,10 @@ struct Placement {
 /// @throws InvalidInput when the points are in world coordinates and there is no pose.
 Placement placement_of(const ScanHints& hints, Frame usual_frame, const std::optional<Pose>& pose_in_file,
                        const Eigen::Vector3d& origin_m = Eigen::Vector3d::Zero());
+
+/// `checked_pose` whose message says by itself where the pose stands ("line 9: VIEWPOINT") and what is wrong with it.
+Pose checked_pose_at(const std::string& place, const Eigen::Vector3d& position_m,
+                     const Eigen::Vector4d& orientation_xyzw);
 
 /// Throws the InvalidInput for a finite value that is no finite float.
 [[noreturn]] void throw_not_a_float(double value, std::size_t point);

@@ -16,12 +16,18 @@ std::vector<DecodedScan> decode_as(ScanFormat format, std::span<const std::byte>
   switch (format) {
     case ScanFormat::pcd:
       return decode_pcd(bytes, hints, limits);
+    case ScanFormat::ply:
+      return decode_ply(bytes, hints, limits);
+    case ScanFormat::las:
+      return decode_las(bytes, hints, limits);
+    case ScanFormat::ptx:
+      return decode_ptx(bytes, hints, limits);
+    case ScanFormat::text:
+      return decode_text(bytes, hints, limits);
     case ScanFormat::kitti:
-      return decode_kitti(bytes, hints, limits);
-    default:
       break;
   }
-  throw UnsupportedFormat("not yet");
+  return decode_kitti(bytes, hints, limits);
 }
 
 bool has_finite_point(const PointCloud& cloud) {

@@ -4,12 +4,14 @@
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
 #include "storage/formats/file_bytes.hpp"
+#include "storage/formats/placement.hpp"
 #include "storage/formats/text_lines.hpp"
 
 namespace raywatch {
@@ -73,6 +75,25 @@ std::string text_of(const Json& value, const Place& place) {
   return value.get<std::string>();
 }
 
+/// JSON in which no object has a member twice: the parser alone would quietly take the last.
+Json parse_json(std::string_view text, std::string_view file) {
+  std::vector<std::set<std::string>> open_objects;
+  const auto check_twice = [&](int, Json::parse_event_t event, Json& value) {
+    if (event == Json::parse_event_t::object_start) open_objects.emplace_back();
+    if (event == Json::parse_event_t::object_end) open_objects.pop_back();
+    if (event == Json::parse_event_t::key && !open_objects.back().insert(value.get<std::string>()).second) {
+      Place{file, value.get<std::string>()}.refuse("stands there twice");
+    }
+    return true;
+  };
+  try {
+    return Json::parse(text, check_twice);
+  } catch (const Json::parse_error& error) {
+    const std::string_view what = error.what();  // begins with the library's own name for it, in brackets
+    throw InvalidInput(std::string(file) + ": malformed JSON: " + std::string(what.substr(what.find("] ") + 2)));
+  }
+}
+
 /// Runs `parse` and names the place when it refuses.
 template <class Parse>
 auto parsed(const Place& place, Parse&& parse) {
@@ -102,7 +123,7 @@ Pose pose_of(const Json& value, std::string_view file) {
   check_members(value, kPoseMembers, place);
   const Eigen::Vector3d position_m = vector_of<3>(value, "position_m", file);
   const Eigen::Vector4d orientation_xyzw = vector_of<4>(value, "orientation_xyzw", file);
-  return parsed(place, [&] { return checked_pose(position_m, orientation_xyzw, "pose"); });
+  return checked_pose_at(std::string(file) + ": pose", position_m, orientation_xyzw);
 }
 
 Json json_of(const Pose& pose) {
@@ -114,13 +135,7 @@ Json json_of(const Pose& pose) {
 }  // namespace
 
 ScanHints parse_side_car(std::string_view json, std::string_view name) {
-  Json root;
-  try {
-    root = Json::parse(json);
-  } catch (const Json::parse_error& error) {
-    throw InvalidInput(std::string(name) + ": malformed JSON at byte " + std::to_string(error.byte) + ": " +
-                       error.what());
-  }
+  const Json root = parse_json(json, name);
   if (!root.is_object()) throw InvalidInput(std::string(name) + ": must be a JSON object");
   check_members(root, kMembers, {name, ""});
   ScanHints hints;

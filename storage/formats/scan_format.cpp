@@ -65,17 +65,6 @@ bool looks_like_ptx(std::string_view text) {
   return true;
 }
 
-std::optional<ScanFormat> format_of_content(std::string_view text) {
-  if (looks_like_pcd(text)) return ScanFormat::pcd;
-  if (text.starts_with("ply\n") || text.starts_with("ply\r\n")) return ScanFormat::ply;
-  if (text.starts_with("LASF")) return ScanFormat::las;
-  if (text.starts_with("RWPB")) {
-    throw UnsupportedFormat("this is a point table that raywatch wrote, not a scan; " + std::string(kKnown));
-  }
-  if (looks_like_ptx(text)) return ScanFormat::ptx;
-  return std::nullopt;
-}
-
 /// The first line that is no comment begins with three numbers or names the columns x, y and z.
 bool looks_like_table(std::string_view text) {
   TextLines lines(text);
@@ -94,6 +83,18 @@ bool looks_like_table(std::string_view text) {
   return false;
 }
 
+std::optional<ScanFormat> format_of_content(std::string_view text) {
+  if (looks_like_pcd(text)) return ScanFormat::pcd;
+  if (text.starts_with("ply\n") || text.starts_with("ply\r\n")) return ScanFormat::ply;
+  if (text.starts_with("LASF")) return ScanFormat::las;
+  if (text.starts_with("RWPB")) {
+    throw UnsupportedFormat("this is a point table that raywatch wrote, not a scan; " + std::string(kKnown));
+  }
+  if (looks_like_ptx(text)) return ScanFormat::ptx;
+  if (looks_like_table(text)) return ScanFormat::text;
+  return std::nullopt;
+}
+
 }  // namespace
 
 ScanFormat detect_scan_format(std::span<const std::byte> bytes, std::string_view name) {
@@ -105,7 +106,6 @@ ScanFormat detect_scan_format(std::span<const std::byte> bytes, std::string_view
     throw UnsupportedFormat("compressed LAS (LAZ) is not read; please decompress it to LAS first");
   }
   if (const auto format = format_named(ending_of(name))) return *format;
-  if (looks_like_table(beginning)) return ScanFormat::text;
   throw UnsupportedFormat("neither the content nor the name of the file shows a format; " + std::string(kKnown));
 }
 
