@@ -81,7 +81,7 @@ struct ChangeRecord {
   ComparisonId comparison;
   SiteId site;
   ScanId scan;
-  Time captured_at;  ///< of the scan
+  Time captured_at;        ///< of the scan
   std::int32_t place = 0;  ///< in its comparison; what `ComparisonPoints::change_of` refers to
   Change change;
 };
@@ -118,7 +118,8 @@ std::optional<Job> start_job(Transaction& transaction, SiteId site);
 /// The sites with jobs that are not started.
 std::vector<SiteId> sites_with_jobs(const Snapshot& snapshot);
 std::uint64_t unfinished_jobs(const Snapshot& snapshot);
-/// After a stop: jobs that were started and not finished become ready again. Returns how many.
+/// After a stop: jobs that were started and not finished become ready again. Returns how many. One that was started
+/// more than 5 times is taken for what stops the program: it ends as failed.
 std::uint64_t requeue_started_jobs(Transaction& transaction);
 
 /// What a finished comparison adds to the store.
@@ -137,7 +138,7 @@ struct ComparisonResult {
 bool finish_job(Transaction& transaction, const Job& job, const ComparisonResult& result, Time now);
 /// Ends a job without a result. The scan becomes `failed` when this was its only comparison.
 void fail_job(Transaction& transaction, const Job& job, std::string_view why, Time now);
-/// Puts a started job back (transient trouble such as a full disk).
+/// Puts a started job back (transient trouble such as a full disk); that start does not count as an attempt.
 void requeue_job(Transaction& transaction, const Job& job);
 
 struct ChangeFilter {

@@ -10,6 +10,7 @@
 #include "core/panorama.hpp"
 #include "core/point_cloud.hpp"
 #include "core/time.hpp"
+#include "storage/chunk_codec.hpp"
 
 namespace raywatch {
 
@@ -29,6 +30,12 @@ struct ComparisonPoints {
   std::vector<PriorPoint> prior_points;
 };
 
+/// Neighbouring points of a scan: `first` is the place of the first of them.
+struct PointRun {
+  std::size_t first = 0;
+  PointCloud points;  ///< without a grid
+};
+
 /// Points and point classes in one SQLite file per site and month.
 ///
 /// Scan points are kept bit-exact and in their order: planes, byte-shuffled and compressed with zstd, in chunks of at
@@ -43,6 +50,8 @@ class Payloads {
   PayloadRef put_scan(SiteId site, Time captured_at, const PointCloud& points, const Panorama& panorama);
   /// @throws CorruptData when a checksum does not match; NotFound when there is no such payload.
   PointCloud scan_points(const PayloadRef& ref) const;
+  /// Runs of points, in order, among which are all that lie in the cone; reads only the chunks whose bounds meet it.
+  std::vector<PointRun> scan_points_around(const PayloadRef& ref, const DirectionCone& cone) const;
   Panorama scan_panorama(const PayloadRef& ref) const;
   std::uint64_t stored_bytes(const PayloadRef& ref) const;
 
@@ -51,6 +60,8 @@ class Payloads {
 
   /// Deletes; a payload that is not there is no error.
   void remove(const PayloadRef& ref);
+
+  Impl& impl();
 
  private:
   std::unique_ptr<Impl> impl_;

@@ -69,7 +69,9 @@ Pose local_pose(const ScanRecord& scan, const Site& site);
 /// Stores the record (its `id`, `vantage`, `state` are decided here), makes a vantage if none is near, and fixes the
 /// site's origin if this is its first scan (to the scan's position rounded to whole metres if farther than 10 km from
 /// zero, else to zero).
-/// @throws Conflict when the sensor has a scan of that time with another sha256.
+/// When the sensor has a scan of that time with the same sha256, nothing is stored and that record comes back; the
+/// payload of the argument, which then differs from the record's, is left to the caller to remove.
+/// @throws Conflict when the sensor has a scan of that time with another sha256; NotFound; DiskFull.
 ScanRecord insert_scan(Transaction& transaction, ScanRecord scan);
 std::optional<ScanRecord> find_scan(const Snapshot& snapshot, ScanId id);
 std::optional<ScanRecord> find_scan(const Snapshot& snapshot, SensorId sensor, Time captured_at);
@@ -78,7 +80,7 @@ struct ScanFilter {
   std::optional<SiteId> site;
   std::optional<SensorId> sensor;
   std::optional<VantageId> vantage;
-  std::optional<Time> from, to;  ///< from <= captured_at < to
+  std::optional<Time> from, to;           ///< from <= captured_at < to
   std::optional<Eigen::Vector3d> near_m;  ///< local; needs `site`: scans of the vantages within `near_radius_m`
   double near_radius_m = 5.0;
 };

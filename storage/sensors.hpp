@@ -19,7 +19,8 @@ struct Sensor {
   SensorId id;
   std::string name;
   SiteId site;
-  std::optional<Pose> pose;  ///< world_from_sensor of a fixed sensor, as given (site coordinates, origin not subtracted)
+  std::optional<Pose>
+      pose;  ///< world_from_sensor of a fixed sensor, as given (site coordinates, origin not subtracted)
   SensorModel known;
   SensorModel estimated;
   std::optional<double> interval_s;

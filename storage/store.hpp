@@ -13,6 +13,7 @@
 namespace raywatch {
 
 class Payloads;
+struct OpenReport;
 
 /// A read-only view of the metadata at one moment: everything read through one snapshot is consistent. Used by the
 /// functions of the record headers (`sites.hpp`, `scans.hpp`, ...). Not thread-safe; lives only inside `Store::read`.
@@ -41,9 +42,11 @@ class Transaction : public Snapshot {
 };
 
 struct StoreOptions {
-  std::filesystem::path data_dir;       ///< created when missing
-  unsigned readers = 4;                 ///< read-only connections
-  std::uint64_t min_free_bytes = 256u << 20;  ///< below this much free disk nothing is written: `DiskFull`
+  std::filesystem::path data_dir;  ///< created when missing
+  unsigned readers = 4;            ///< read-only connections
+  /// Below this much free disk nothing new is stored (`DiskFull`); deletions, edits and the ends of jobs that failed
+  /// may use it up.
+  std::uint64_t min_free_bytes = 256u << 20;
 };
 
 /// The store: `raywatch.db` with all metadata, and payload files with points and point classes.
@@ -90,12 +93,15 @@ class Store {
   /// Points and point classes. Put there first, then committed to the metadata by reference.
   Payloads& payloads();
 
-  /// Copies the running store consistently into `directory`, which must not exist or be empty. Writing goes on meanwhile.
+  /// Copies the running store consistently into `directory`, which must not exist or be empty. Writing goes on
+  /// meanwhile.
   /// @throws InvalidInput for an unusable directory; StorageError, DiskFull.
   void backup(const std::filesystem::path& directory);
 
   const std::filesystem::path& data_dir() const;
   bool recovered_from_unclean_stop() const;
+  /// What was found and cleared away at the opening; `storage/sweep.hpp` has the struct.
+  const OpenReport& open_report() const;
 
  private:
   void read_erased(const std::function<void(const Snapshot&)>& f) const;

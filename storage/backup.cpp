@@ -1,0 +1,76 @@
+#include "storage/backup.hpp"
+
+#include "core/error.hpp"
+#include "storage/data_dir.hpp"
+
+namespace raywatch {
+namespace {
+
+void require_usable(const std::filesystem::path& directory) {
+  if (directory.empty())
+    throw InvalidInput("no directory for the backup is given", {{"directory", "must not be empty"}});
+  if (!std::filesystem::exists(directory)) return;
+  if (!std::filesystem::is_directory(directory) || !std::filesystem::is_empty(directory)) {
+    throw InvalidInput("the backup needs a directory of its own: " + directory.string() + " exists and is not empty",
+                       {{"directory", "must not exist or be empty"}});
+  }
+}
+
+std::uint64_t bytes_with_log(const std::filesystem::path& file) {
+  std::uint64_t bytes = 0;
+  for (const char* suffix : {"", "-wal"}) {
+    std::error_code absent;
+    const std::uintmax_t size = std::filesystem::file_size(file.string() + suffix, absent);
+    if (!absent) bytes += size;
+  }
+  return bytes;
+}
+
+std::uint64_t bytes_to_copy(const Database& metadata, const PayloadFiles& files) {
+  std::uint64_t bytes = bytes_with_log(metadata.file());
+  for (const std::string& file : files.on_disk()) bytes += bytes_with_log(files.data_dir() / file);
+  return bytes;
+}
+
+void copy_payload_file(PayloadFiles& files, const std::string& file, const std::filesystem::path& directory) {
+  const std::filesystem::path target = directory / file;
+  make_directories_durably(target.parent_path());
+  files.read(file, [&](Database* database) {
+    if (database) database->copy_to(target);
+  });
+  sync_directory(target.parent_path());
+}
+
+void copy_all(Database& metadata, PayloadFiles& files, const std::filesystem::path& directory) {
+  const std::filesystem::path target = directory / metadata.file().filename();
+  const std::filesystem::path partial = target.string() + ".partial";
+  metadata.copy_to(partial);
+  for (const std::string& file : files.on_disk()) copy_payload_file(files, file, directory);
+  std::filesystem::rename(partial, target);
+  sync_directory(directory);
+}
+
+void remove_content(const std::filesystem::path& directory) noexcept {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored)) {
+    std::filesystem::remove_all(entry.path(), ignored);
+  }
+}
+
+}  // namespace
+
+void copy_store(Database& metadata, PayloadFiles& files, const std::filesystem::path& directory,
+                std::uint64_t min_free_bytes) {
+  require_usable(directory);
+  const std::filesystem::path target = std::filesystem::absolute(directory).lexically_normal();
+  make_directories_durably(target);
+  require_room(target, {.bytes = bytes_to_copy(metadata, files), .reserve_bytes = min_free_bytes});
+  try {
+    copy_all(metadata, files, target);
+  } catch (...) {
+    remove_content(target);
+    throw;
+  }
+}
+
+}  // namespace raywatch

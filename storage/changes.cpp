@@ -1,0 +1,186 @@
+#include <array>
+#include <limits>
+
+#include "storage/columns.hpp"
+#include "storage/comparison_rows.hpp"
+#include "storage/comparisons.hpp"
+#include "storage/cursor.hpp"
+#include "storage/scans.hpp"
+#include "storage/snapshot.hpp"
+#include "storage/spatial.hpp"
+
+namespace raywatch {
+namespace {
+
+constexpr std::string_view kList = "changes";
+const std::string kColumns =
+    "c.id, c.comparison, c.place, c.site, c.scan, c.captured_at, c.kind, c.centroid_x_m, c.centroid_y_m, "
+    "c.centroid_z_m, c.min_x_m, c.min_y_m, c.min_z_m, c.max_x_m, c.max_y_m, c.max_z_m, c.box_pose, c.box_x_m, "
+    "c.box_y_m, c.box_z_m, c.volume_m3, c.points, c.confidence, c.free, c.supported, c.unknown";
+
+Eigen::Vector3d take_vector(Statement& row) {
+  const auto x = row.take<double>();
+  const auto y = row.take<double>();
+  const auto z = row.take<double>();
+  return {x, y, z};
+}
+
+ChangeRecord read_change(Statement& row) {
+  ChangeRecord record;
+  record.id = row.take<ChangeId>();
+  record.comparison = row.take<ComparisonId>();
+  record.place = row.take<std::int32_t>();
+  record.site = row.take<SiteId>();
+  record.scan = row.take<ScanId>();
+  record.captured_at = row.take<Time>();
+  Change& change = record.change;
+  change.kind =
+      enum_from_text(row.take<std::string>(), {ChangeKind::added, ChangeKind::removed, ChangeKind::discrepancy});
+  change.centroid_m = take_vector(row);
+  change.bounds_m.min() = take_vector(row);
+  change.bounds_m.max() = take_vector(row);
+  const Pose world_from_box = pose_from_bytes(row.take<std::span<const std::uint8_t>>());
+  change.box = {world_from_box.position_m, take_vector(row), world_from_box.orientation};
+  change.volume_m3 = row.take<double>();
+  change.points = row.take<std::size_t>();
+  change.confidence.value = row.take<double>();
+  change.confidence.free = row.take<double>();
+  change.confidence.supported = row.take<double>();
+  change.confidence.unknown = row.take<double>();
+  return record;
+}
+
+void insert_bounds(Database& database, ChangeId id, SiteId site, const Eigen::AlignedBox3d& box) {
+  const auto site_key = static_cast<double>(site.value);
+  Statement row(database, "INSERT INTO change_bounds VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  row.bind(id, float_below(site_key), float_above(site_key));
+  for (int axis = 0; axis < 3; ++axis) row.bind(float_below(box.min()[axis]), float_above(box.max()[axis]));
+  row.next();
+}
+
+void insert_change(Database& database, const ComparisonRecord& comparison, Time captured_at, std::int64_t place,
+                   const Change& change) {
+  const PoseBytes box_pose = pose_bytes({change.box.world_from_box, change.box.center_m});
+  {
+    Statement row(database,
+                  "INSERT INTO changes (comparison, place, site, scan, captured_at, kind, centroid_x_m, centroid_y_m, "
+                  "centroid_z_m, min_x_m, min_y_m, min_z_m, max_x_m, max_y_m, max_z_m, box_pose, box_x_m, box_y_m, "
+                  "box_z_m, volume_m3, points, confidence, free, supported, unknown) VALUES "
+                  "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    row.bind(comparison.id, place, comparison.site, comparison.scan, captured_at, to_string(change.kind));
+    for (const Eigen::Vector3d& v : {change.centroid_m, change.bounds_m.min(), change.bounds_m.max()}) {
+      row.bind(v.x(), v.y(), v.z());
+    }
+    row.bind(box_pose, change.box.size_m.x(), change.box.size_m.y(), change.box.size_m.z(), change.volume_m3,
+             change.points, change.confidence.value, change.confidence.free, change.confidence.supported,
+             change.confidence.unknown);
+    row.next();
+  }
+  insert_bounds(database, ChangeId{database.last_id()}, comparison.site, change.bounds_m);
+}
+
+using Key = std::array<std::int64_t, 3>;  ///< captured_at, comparison, place
+Key key_of(const ChangeRecord& record) {
+  return {record.captured_at.time_since_epoch().count(), record.comparison.value, record.place};
+}
+
+/// The part of the list to read: from <= captured_at, and behind a key (older, or of that time and with a later rest).
+struct Span {
+  std::int64_t from;
+  Key after;
+};
+
+Span span_of(const ChangeFilter& filter, const PageRequest& page) {
+  constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
+  const std::int64_t from = filter.from ? filter.from->time_since_epoch().count() : kMin;
+  // Behind every change of the time `to`; without `to`, before all.
+  const Key start = filter.to ? Key{filter.to->time_since_epoch().count(), kMax, kMax} : Key{kMax, 0, 0};
+  const Key cursor = key_before(page, kList, start);
+  // A cursor was given within the same `to`; the earlier time goes farther.
+  return {from, cursor[0] <= start[0] ? cursor : start};
+}
+
+struct Query {
+  std::string from;   ///< tables, with the index to use
+  std::string where;  ///< conditions, each followed by AND
+};
+
+/// The conditions of a filter that are the same whatever index serves it.
+std::string conditions(const ChangeFilter& filter) {
+  std::string where;
+  if (filter.site) where += "c.site = ?1 AND ";
+  if (filter.comparison) where += "c.comparison = ?2 AND ";
+  if (filter.kind) where += "c.kind = ?3 AND ";
+  if (filter.min_volume_m3) where += "c.volume_m3 >= ?4 AND ";
+  if (filter.box_m) {
+    where +=
+        "c.min_x_m <= ?6 AND c.max_x_m >= ?5 AND c.min_y_m <= ?8 AND c.max_y_m >= ?7 AND c.min_z_m <= ?10 AND "
+        "c.max_z_m >= ?9 AND ";
+  }
+  return where;
+}
+
+const std::string kInBox =
+    "b.site_min <= ?1 AND b.site_max >= ?1 AND b.x_min <= ?6 AND b.x_max >= ?5 AND b.y_min <= ?8 AND b.y_max >= ?7 AND "
+    "b.z_min <= ?10 AND b.z_max >= ?9 ";
+
+void bind_filter(Statement& rows, const ChangeFilter& filter) {
+  const Eigen::AlignedBox3d box = filter.box_m.value_or(Eigen::AlignedBox3d());
+  rows.bind(filter.site, filter.comparison, filter.kind ? std::optional(to_string(*filter.kind)) : std::nullopt,
+            filter.min_volume_m3);
+  for (int axis = 0; axis < 3; ++axis) rows.bind(box.min()[axis], box.max()[axis]);
+}
+
+/// From this number of hits on, the newest of them are found faster by walking through time than by sorting all.
+constexpr std::int64_t kManyHits = 5000;
+
+bool has_few_hits(const Snapshot& snapshot, const ChangeFilter& filter) {
+  Statement row(database_of(snapshot), "SELECT count(*) FROM (SELECT 1 FROM change_bounds AS b WHERE " + kInBox +
+                                           "AND ?2 IS ?2 AND ?3 IS ?3 AND ?4 IS ?4 LIMIT ?11)");
+  bind_filter(row, filter);
+  row.bind(kManyHits).next();
+  return row.take<std::int64_t>() < kManyHits;
+}
+
+std::string tables(const Snapshot& snapshot, const ChangeFilter& filter) {
+  if (filter.comparison) return "changes AS c INDEXED BY changes_by_comparison WHERE ";
+  if (filter.box_m && has_few_hits(snapshot, filter)) {
+    return "change_bounds AS b CROSS JOIN changes AS c ON c.id = b.id WHERE " + kInBox + "AND ";
+  }
+  if (filter.site) return "changes AS c INDEXED BY changes_by_site WHERE ";
+  return "changes AS c INDEXED BY changes_by_time WHERE ";
+}
+
+}  // namespace
+
+void insert_changes(Transaction& transaction, const ComparisonRecord& comparison, const std::vector<Change>& changes) {
+  const Time captured_at = find_scan(transaction, comparison.scan).value().captured_at;
+  std::int64_t place = 0;
+  for (const Change& change : changes) {
+    insert_change(database_of(transaction), comparison, captured_at, place++, change);
+  }
+}
+
+Page<ChangeRecord> list_changes(const Snapshot& snapshot, const ChangeFilter& filter, const PageRequest& page) {
+  if (filter.box_m && !filter.site) throw InvalidInput("a box needs a site", {{"box", "needs \"site\""}});
+  const Span span = span_of(filter, page);
+  Statement rows(
+      database_of(snapshot),
+      "SELECT " + kColumns + " FROM " + tables(snapshot, filter) + conditions(filter) +
+          "c.captured_at BETWEEN ?11 AND ?12 AND (c.captured_at < ?12 OR (c.comparison, c.place) > (?13, ?14)) "
+          "ORDER BY c.captured_at DESC, c.comparison, c.place LIMIT ?15");
+  bind_filter(rows, filter);
+  rows.bind(span.from, span.after[0], span.after[1], span.after[2], rows_to_read(page));
+  std::vector<ChangeRecord> changes;
+  while (rows.next()) changes.push_back(read_change(rows));
+  return make_page(std::move(changes), page, kList, key_of);
+}
+
+std::optional<ChangeRecord> find_change(const Snapshot& snapshot, ChangeId id) {
+  Statement row(database_of(snapshot), "SELECT " + kColumns + " FROM changes AS c WHERE c.id = ?");
+  if (!row.bind(id).next()) return std::nullopt;
+  return read_change(row);
+}
+
+}  // namespace raywatch

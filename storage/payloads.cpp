@@ -1,0 +1,319 @@
+#include "storage/payloads.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "storage/chunk_codec.hpp"
+#include "storage/class_codec.hpp"
+#include "storage/data_dir.hpp"
+#include "storage/payloads_impl.hpp"
+
+namespace raywatch {
+namespace {
+
+constexpr std::int64_t kChunksPerPayload = std::int64_t{1} << 20;
+/// Memory is taken for at most so many points before any of them was read.
+constexpr std::size_t kTrustedPoints = std::size_t{1} << 20;
+
+struct EncodedChunk {
+  std::optional<ChunkBounds> bounds;
+  std::vector<std::uint8_t> data;
+};
+
+/// A payload as it is written: everything that costs time was done in the caller's thread.
+struct EncodedPayload {
+  std::string_view kind;
+  std::uint64_t points = 0;
+  std::uint64_t prior_points = 0;
+  bool has_intensity = false;
+  std::optional<ShotGrid> grid;
+  std::vector<std::uint8_t> panorama;  ///< empty for comparisons
+  std::vector<EncodedChunk> chunks;
+
+  std::uint64_t bytes() const {
+    std::uint64_t sum = panorama.size();
+    for (const EncodedChunk& chunk : chunks) sum += chunk.data.size();
+    return sum;
+  }
+};
+
+/// A row of `payloads`.
+struct PayloadRow {
+  std::string kind;
+  std::uint64_t points = 0;
+  std::int64_t chunks = 0;
+  bool has_intensity = false;
+  std::optional<ShotGrid> grid;
+  std::uint64_t prior_points = 0;
+  std::uint64_t stored_bytes = 0;
+};
+
+std::vector<EncodedChunk> encode_chunks(const PointCloud& points) {
+  BlockSealer sealer;
+  std::vector<EncodedChunk> chunks;
+  for (std::size_t first = 0; first < points.size(); first += kChunkPoints) {
+    const std::size_t count = std::min(kChunkPoints, points.size() - first);
+    const auto part = [&](const std::vector<float>& plane) { return std::span(plane).subspan(first, count); };
+    chunks.push_back({chunk_bounds(part(points.x_m), part(points.y_m), part(points.z_m)),
+                      encode_chunk(points, first, count, sealer)});
+  }
+  return chunks;
+}
+
+void require_one_length(const PointCloud& points) {
+  const std::size_t size = points.size();
+  const bool intensity_fits = points.intensity.empty() || points.intensity.size() == size;
+  const bool grid_fits = !points.grid || std::uint64_t{points.grid->rows} * points.grid->columns == size;
+  if (points.y_m.size() != size || points.z_m.size() != size || !intensity_fits || !grid_fits) {
+    throw InvalidInput("the planes of a scan have different lengths");
+  }
+  if (size > kChunkPoints * static_cast<std::size_t>(kChunksPerPayload)) throw TooLarge("the scan has too many points");
+}
+
+void insert_chunks(Database& database, std::int64_t payload, const std::vector<EncodedChunk>& chunks) {
+  std::int64_t id = payload * kChunksPerPayload;
+  for (const EncodedChunk& chunk : chunks) {
+    Statement row(database, "INSERT INTO chunks VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+    row.bind(id++);
+    for (const auto member :
+         {&ChunkBounds::azimuth_min_rad, &ChunkBounds::azimuth_max_rad, &ChunkBounds::elevation_min_rad,
+          &ChunkBounds::elevation_max_rad, &ChunkBounds::range_min_m, &ChunkBounds::range_max_m}) {
+      row.bind(chunk.bounds ? std::optional((*chunk.bounds).*member) : std::nullopt);
+    }
+    row.bind(chunk.data).next();
+  }
+}
+
+std::int64_t insert_payload(Database& database, const EncodedPayload& payload) {
+  database.run(
+      "INSERT INTO payloads (kind, points, chunks, has_intensity, grid_rows, grid_columns, prior_points, stored_bytes) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+      payload.kind, payload.points, payload.chunks.size(), payload.has_intensity,
+      payload.grid ? std::optional(payload.grid->rows) : std::nullopt,
+      payload.grid ? std::optional(payload.grid->columns) : std::nullopt, payload.prior_points, payload.bytes());
+  const std::int64_t key = database.last_id();
+  if (!payload.panorama.empty()) database.run("INSERT INTO panoramas VALUES (?, ?)", key, payload.panorama);
+  insert_chunks(database, key, payload.chunks);
+  return key;
+}
+
+PayloadRef put(Payloads::Impl& impl, const std::string& file, const EncodedPayload& payload) {
+  std::int64_t key = 0;
+  impl.writer.run([&] {
+    require_room(impl.files.data_dir(), {.bytes = payload.bytes(), .reserve_bytes = impl.min_free_bytes});
+    Database& database = impl.files.writer(file);
+    database.transact([&] { key = insert_payload(database, payload); });
+  });
+  return {file, key};
+}
+
+[[noreturn]] void throw_missing(const PayloadRef& ref) {
+  throw NotFound("there is no payload " + std::to_string(ref.key) + " in " + ref.file);
+}
+
+PayloadRow payload_row(Database& database, const PayloadRef& ref) {
+  Statement row(database,
+                "SELECT kind, points, chunks, has_intensity, grid_rows, grid_columns, prior_points, stored_bytes "
+                "FROM payloads WHERE id = ?");
+  if (!row.bind(ref.key).next()) throw_missing(ref);
+  PayloadRow payload;
+  payload.kind = row.take<std::string>();
+  payload.points = row.take<std::uint64_t>();
+  payload.chunks = row.take<std::int64_t>();
+  payload.has_intensity = row.take<bool>();
+  const auto rows = row.take<std::optional<std::uint32_t>>();
+  const auto columns = row.take<std::optional<std::uint32_t>>();
+  if (rows && columns) payload.grid = ShotGrid{*rows, *columns};
+  payload.prior_points = row.take<std::uint64_t>();
+  payload.stored_bytes = row.take<std::uint64_t>();
+  return payload;
+}
+
+/// Calls `f(database, row)` for a payload, and names the payload in what is thrown about its bytes.
+template <class F>
+void read_payload(const Payloads::Impl& impl, const PayloadRef& ref, const F& f) {
+  try {
+    impl.files.read(ref.file, [&](Database* database) {
+      if (!database) throw_missing(ref);
+      f(*database, payload_row(*database, ref));
+    });
+  } catch (const CorruptData& error) {
+    throw CorruptData("payload " + std::to_string(ref.key) + " in " + ref.file + ": " + error.what());
+  }
+}
+
+/// Calls `f(place, data)` for the chunks of a payload, in order. Returns how many there are.
+template <class F>
+std::int64_t for_each_chunk(Database& database, const PayloadRef& ref, const F& f) {
+  Statement rows(database, "SELECT id, data FROM chunks WHERE id >= ? AND id < ? ORDER BY id");
+  rows.bind(ref.key * kChunksPerPayload, (ref.key + 1) * kChunksPerPayload);
+  std::int64_t count = 0;
+  for (; rows.next(); ++count) {
+    const std::int64_t place = rows.take<std::int64_t>() - ref.key * kChunksPerPayload;
+    if (place != count) throw CorruptData("a chunk is missing");
+    f(rows.take<std::span<const std::uint8_t>>());
+  }
+  return count;
+}
+
+void require_kind(const PayloadRow& row, std::string_view kind) {
+  if (row.kind != kind) throw NotFound("the payload is not of a " + std::string(kind));
+}
+
+void require_counts(const PayloadRow& row, std::int64_t chunks, std::uint64_t points) {
+  if (chunks != row.chunks || points != row.points) throw CorruptData("chunks or points are missing");
+}
+
+ChunkBounds take_bounds(Statement& row) {
+  ChunkBounds bounds;
+  for (const auto member :
+       {&ChunkBounds::azimuth_min_rad, &ChunkBounds::azimuth_max_rad, &ChunkBounds::elevation_min_rad,
+        &ChunkBounds::elevation_max_rad, &ChunkBounds::range_min_m, &ChunkBounds::range_max_m}) {
+    bounds.*member = row.take<double>();
+  }
+  return bounds;
+}
+
+std::vector<std::int64_t> chunks_that_meet(Database& database, const PayloadRef& ref, const DirectionCone& cone) {
+  Statement rows(database,
+                 "SELECT id, azimuth_min_rad, azimuth_max_rad, elevation_min_rad, elevation_max_rad, range_min_m, "
+                 "range_max_m FROM chunks WHERE id >= ? AND id < ? AND azimuth_min_rad IS NOT NULL ORDER BY id");
+  rows.bind(ref.key * kChunksPerPayload, (ref.key + 1) * kChunksPerPayload);
+  std::vector<std::int64_t> ids;
+  while (rows.next()) {
+    const auto id = rows.take<std::int64_t>();
+    if (may_meet(take_bounds(rows), cone)) ids.push_back(id);
+  }
+  return ids;
+}
+
+}  // namespace
+
+Payloads::Payloads(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Payloads::~Payloads() = default;
+Payloads::Impl& Payloads::impl() { return *impl_; }
+
+PayloadRef Payloads::put_scan(SiteId site, Time captured_at, const PointCloud& points, const Panorama& panorama) {
+  require_one_length(points);
+  const std::vector<std::uint8_t> panorama_bytes = to_bytes(panorama);
+  EncodedPayload payload{.kind = "scan",
+                         .points = points.size(),
+                         .has_intensity = !points.intensity.empty(),
+                         .grid = points.grid,
+                         .panorama = BlockSealer().seal({.kind = BlockKind::panorama, .elements = 1}, panorama_bytes),
+                         .chunks = encode_chunks(points)};
+  return put(*impl_, payload_file_name(site, captured_at), payload);
+}
+
+PointCloud Payloads::scan_points(const PayloadRef& ref) const {
+  PointCloud points;
+  read_payload(*impl_, ref, [&](Database& database, const PayloadRow& row) {
+    require_kind(row, "scan");
+    points.reserve(std::min<std::uint64_t>(row.points, kTrustedPoints));
+    points.grid = row.grid;
+    const std::int64_t chunks = for_each_chunk(
+        database, ref, [&](std::span<const std::uint8_t> data) { decode_chunk(data, row.has_intensity, points); });
+    require_counts(row, chunks, points.size());
+  });
+  return points;
+}
+
+std::vector<PointRun> Payloads::scan_points_around(const PayloadRef& ref, const DirectionCone& cone) const {
+  std::vector<PointRun> runs;
+  read_payload(*impl_, ref, [&](Database& database, const PayloadRow& row) {
+    require_kind(row, "scan");
+    for (const std::int64_t id : chunks_that_meet(database, ref, cone)) {
+      PointRun& run = runs.emplace_back();
+      run.first = static_cast<std::size_t>(id - ref.key * kChunksPerPayload) * kChunkPoints;
+      Statement chunk(database, "SELECT data FROM chunks WHERE id = ?");
+      chunk.bind(id).next();
+      decode_chunk(chunk.take<std::span<const std::uint8_t>>(), row.has_intensity, run.points);
+    }
+  });
+  return runs;
+}
+
+Panorama Payloads::scan_panorama(const PayloadRef& ref) const {
+  Panorama panorama;
+  read_payload(*impl_, ref, [&](Database& database, const PayloadRow& row) {
+    require_kind(row, "scan");
+    Statement blob(database, "SELECT data FROM panoramas WHERE payload = ?");
+    if (!blob.bind(ref.key).next()) throw CorruptData("the panorama is missing");
+    const auto data = blob.take<std::span<const std::uint8_t>>();
+    open_block(data, BlockKind::panorama);
+    constexpr std::size_t kPanorama_bytes = Panorama::kRows * Panorama::kColumns * sizeof(std::uint16_t);
+    panorama = panorama_from_bytes(block_content(data, kPanorama_bytes));
+  });
+  return panorama;
+}
+
+std::uint64_t Payloads::stored_bytes(const PayloadRef& ref) const {
+  std::uint64_t bytes = 0;
+  read_payload(*impl_, ref, [&](Database&, const PayloadRow& row) { bytes = row.stored_bytes; });
+  return bytes;
+}
+
+PayloadRef Payloads::put_comparison(SiteId site, Time captured_at, const ComparisonPoints& points) {
+  EncodedPayload payload;
+  payload.kind = "comparison";
+  payload.points = points.classes.size();
+  payload.prior_points = points.prior_points.size();
+  for (std::vector<std::uint8_t>& block : encode_classes(points)) {
+    payload.chunks.push_back({std::nullopt, std::move(block)});
+  }
+  return put(*impl_, payload_file_name(site, captured_at), payload);
+}
+
+ComparisonPoints Payloads::comparison_points(const PayloadRef& ref) const {
+  ComparisonPoints points;
+  read_payload(*impl_, ref, [&](Database& database, const PayloadRow& row) {
+    require_kind(row, "comparison");
+    const std::int64_t chunks =
+        for_each_chunk(database, ref, [&](std::span<const std::uint8_t> data) { decode_class_block(data, points); });
+    require_counts(row, chunks, points.classes.size());
+    if (points.prior_points.size() != row.prior_points) throw CorruptData("points of priors are missing");
+  });
+  return points;
+}
+
+void Payloads::remove(const PayloadRef& ref) {
+  impl_->writer.run([&] {
+    if (impl_->copies_running > 0) {
+      impl_->held_back.push_back(ref);
+    } else if (!ref.file.empty() && std::filesystem::exists(impl_->files.data_dir() / ref.file)) {
+      delete_payloads(impl_->files, ref.file, std::array{ref.key});
+    }
+  });
+}
+
+void delete_payloads(PayloadFiles& files, const std::string& file, std::span<const std::int64_t> keys) {
+  Database& database = files.writer(file);
+  database.transact([&] {
+    for (const std::int64_t key : keys) {
+      database.run("DELETE FROM chunks WHERE id >= ? AND id < ?", key * kChunksPerPayload,
+                   (key + 1) * kChunksPerPayload);
+      database.run("DELETE FROM panoramas WHERE payload = ?", key);
+      database.run("DELETE FROM payloads WHERE id = ?", key);
+    }
+  });
+  database.run("PRAGMA incremental_vacuum");
+}
+
+DeletionHold::DeletionHold(Payloads::Impl& payloads) : payloads_(payloads) {
+  payloads_.writer.run([&] { ++payloads_.copies_running; });
+}
+
+DeletionHold::~DeletionHold() {
+  payloads_.writer.run([&] {
+    if (--payloads_.copies_running > 0) return;
+    for (const PayloadRef& ref : std::exchange(payloads_.held_back, {})) {
+      try {
+        delete_payloads(payloads_.files, ref.file, std::array{ref.key});
+      } catch (const StorageError&) {
+        // It has no owner any more: the next start sweeps it.
+      }
+    }
+  });
+}
+
+}  // namespace raywatch

@@ -1,0 +1,212 @@
+#include "storage/scans.hpp"
+
+#include <cmath>
+
+#include "storage/columns.hpp"
+#include "storage/scan_rows.hpp"
+#include "storage/sensors.hpp"
+#include "storage/snapshot.hpp"
+#include "storage/vantages.hpp"
+
+namespace raywatch {
+namespace {
+
+ScanRecord existing(const Snapshot& snapshot, ScanId id) {
+  std::optional<ScanRecord> scan = find_scan(snapshot, id);
+  if (!scan) throw NotFound("there is no scan " + std::to_string(id.value));
+  return std::move(*scan);
+}
+
+Site site_of(const Snapshot& snapshot, const ScanRecord& scan) {
+  std::optional<Site> site = find_site(snapshot, scan.site);
+  if (!site) throw NotFound("there is no site " + std::to_string(scan.site.value));
+  return std::move(*site);
+}
+
+void require_sensor_of_site(const Snapshot& snapshot, const ScanRecord& scan) {
+  const std::optional<Sensor> sensor = find_sensor(snapshot, scan.sensor);
+  if (!sensor) throw NotFound("there is no sensor " + std::to_string(scan.sensor.value));
+  if (sensor->site != scan.site) throw Conflict("sensor \"" + sensor->name + "\" belongs to another site");
+}
+
+/// Coordinates up to this size keep a tenth of a millimetre in 32-bit floats well enough; larger ones, such as those of
+/// map projections, need an origin.
+constexpr double kFarFromZero_m = 10'000.0;
+
+Site with_origin(Transaction& transaction, const Site& site, const Eigen::Vector3d& position_m) {
+  if (site.origin_m) return site;
+  SiteEdit edit;
+  edit.origin_m =
+      position_m.norm() > kFarFromZero_m ? Eigen::Vector3d(position_m.array().round()) : Eigen::Vector3d::Zero();
+  return edit_site(transaction, site.id, edit);
+}
+
+/// The stored scan of the same sensor and time, if it has the same bytes.
+std::optional<ScanRecord> same_scan(const Snapshot& snapshot, const ScanRecord& scan) {
+  std::optional<ScanRecord> stored = find_scan(snapshot, scan.sensor, scan.captured_at);
+  if (stored && stored->sha256 != scan.sha256) {
+    throw Conflict("the sensor has another scan of " + format_rfc3339(scan.captured_at) + ": scan " +
+                   std::to_string(stored->id.value) + ", with other bytes");
+  }
+  return stored;
+}
+
+template <class T, class U>
+std::optional<T> member(const std::optional<U>& object, T U::*pointer) {
+  return object ? std::optional((*object).*pointer) : std::nullopt;
+}
+
+ScanId insert_row(Transaction& transaction, const ScanRecord& scan, VantageId vantage) {
+  const PoseBytes pose = pose_bytes(scan.pose);
+  const PoseBytes correction = pose_bytes(scan.registration.correction);
+  database_of(transaction)
+      .run(
+          "INSERT INTO scans (site, sensor, vantage, captured_at, received_at, points, sha256, reported_pose, "
+          "registration_state, registration_correction, registration_residual_m, registration_against, estimated, "
+          "grid_rows, grid_columns, has_intensity, pinned, note, state, failure, payload_file, payload_key, "
+          "stored_bytes) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, '', ?, ?, ?)",
+          scan.site, scan.sensor, vantage, scan.captured_at, scan.received_at, scan.points, scan.sha256, pose,
+          scan.registration.state, correction, scan.registration.residual_m, scan.registration.against,
+          model_json(scan.estimated), member(scan.grid, &ShotGrid::rows), member(scan.grid, &ShotGrid::columns),
+          scan.has_intensity, scan.pinned, scan.note, to_string(ScanState::queued), scan.payload.file, scan.payload.key,
+          scan.stored_bytes);
+  return ScanId{database_of(transaction).last_id()};
+}
+
+void require_deletable(const Snapshot& snapshot, const ScanRecord& scan) {
+  const std::string name = "scan " + std::to_string(scan.id.value);
+  if (scan.pinned) throw Conflict(name + " is pinned");
+  Database& database = database_of(snapshot);
+  if (database.find<int>(
+          "SELECT 1 FROM comparisons INDEXED BY comparisons_by_scan WHERE scan = ? AND state = ? LIMIT 1", scan.id,
+          to_string(ComparisonState::running))) {
+    throw Conflict(name + " is being compared");
+  }
+  const auto user = database.find<std::int64_t>(
+      "SELECT comparison FROM comparison_priors INDEXED BY comparison_priors_by_scan WHERE scan = ? LIMIT 1", scan.id);
+  if (user) throw Conflict(name + " is a prior of comparison " + std::to_string(*user));
+}
+
+void delete_comparison(Transaction& transaction, ComparisonId id) {
+  Database& database = database_of(transaction);
+  database.run(
+      "DELETE FROM change_bounds WHERE id IN "
+      "(SELECT id FROM changes INDEXED BY changes_by_comparison WHERE comparison = ?)",
+      id);
+  for (const char* table : {"changes", "comparison_candidates", "comparison_priors", "jobs"}) {
+    database.run(std::string("DELETE FROM ") + table + " WHERE comparison = ?", id);
+  }
+  database.run("DELETE FROM comparisons WHERE id = ?", id);
+}
+
+}  // namespace
+
+std::string_view to_string(ScanState state) {
+  switch (state) {
+    case ScanState::queued:
+      return "queued";
+    case ScanState::comparing:
+      return "comparing";
+    case ScanState::compared:
+      return "compared";
+    case ScanState::failed:
+      break;
+  }
+  return "failed";
+}
+
+Pose local_pose(const ScanRecord& scan, const Site& site) {
+  Pose local_from_sensor = scan.registration.correction * scan.pose;
+  if (site.origin_m) local_from_sensor.position_m -= *site.origin_m;
+  return local_from_sensor;
+}
+
+const std::string& select_scans() {
+  static const std::string sql =
+      "SELECT id, site, sensor, vantage, captured_at, received_at, points, sha256, reported_pose, registration_state, "
+      "registration_correction, registration_residual_m, registration_against, estimated, grid_rows, grid_columns, "
+      "has_intensity, pinned, note, state, failure, payload_file, payload_key, stored_bytes FROM scans ";
+  return sql;
+}
+
+ScanRecord read_scan(Statement& row) {
+  ScanRecord scan;
+  scan.id = row.take<ScanId>();
+  scan.site = row.take<SiteId>();
+  scan.sensor = row.take<SensorId>();
+  scan.vantage = row.take<VantageId>();
+  scan.captured_at = row.take<Time>();
+  scan.received_at = row.take<Time>();
+  scan.points = row.take<std::uint64_t>();
+  scan.sha256 = row.take<std::string>();
+  scan.pose = pose_from_bytes(row.take<std::span<const std::uint8_t>>());
+  scan.registration.state = row.take<std::string>();
+  scan.registration.correction = pose_from_bytes(row.take<std::span<const std::uint8_t>>());
+  scan.registration.residual_m = row.take<std::optional<double>>();
+  scan.registration.against = row.take<std::optional<ScanId>>();
+  scan.estimated = model_from_json(row.take<std::string>());
+  const auto rows = row.take<std::optional<std::uint32_t>>();
+  const auto columns = row.take<std::optional<std::uint32_t>>();
+  if (rows && columns) scan.grid = ShotGrid{*rows, *columns};
+  scan.has_intensity = row.take<bool>();
+  scan.pinned = row.take<bool>();
+  scan.note = row.take<std::string>();
+  scan.state = enum_from_text(row.take<std::string>(),
+                              {ScanState::queued, ScanState::comparing, ScanState::compared, ScanState::failed});
+  scan.failure = row.take<std::string>();
+  scan.payload.file = row.take<std::string>();
+  scan.payload.key = row.take<std::int64_t>();
+  scan.stored_bytes = row.take<std::uint64_t>();
+  return scan;
+}
+
+ScanRecord insert_scan(Transaction& transaction, ScanRecord scan) {
+  transaction.impl().require_room_for_records();
+  require_sensor_of_site(transaction, scan);
+  if (std::optional<ScanRecord> stored = same_scan(transaction, scan)) return std::move(*stored);
+  const Site site = with_origin(transaction, site_of(transaction, scan), scan.pose.position_m);
+  const VantageId vantage = vantage_for_scan(transaction, scan.site, local_pose(scan, site).position_m);
+  const ScanId id = insert_row(transaction, scan, vantage);
+  add_scan_to_vantage(transaction, vantage, scan.captured_at);
+  return existing(transaction, id);
+}
+
+std::optional<ScanRecord> find_scan(const Snapshot& snapshot, ScanId id) {
+  Statement row(database_of(snapshot), select_scans() + "WHERE id = ?");
+  if (!row.bind(id).next()) return std::nullopt;
+  return read_scan(row);
+}
+
+std::optional<ScanRecord> find_scan(const Snapshot& snapshot, SensorId sensor, Time captured_at) {
+  Statement row(database_of(snapshot),
+                select_scans() + "INDEXED BY scans_by_sensor WHERE sensor = ? AND captured_at = ?");
+  if (!row.bind(sensor, captured_at).next()) return std::nullopt;
+  return read_scan(row);
+}
+
+ScanRecord edit_scan(Transaction& transaction, ScanId id, const ScanEdit& edit) {
+  ScanRecord scan = existing(transaction, id);
+  scan.pinned = edit.pinned.value_or(scan.pinned);
+  scan.note = edit.note.value_or(scan.note);
+  database_of(transaction).run("UPDATE scans SET pinned = ?, note = ? WHERE id = ?", scan.pinned, scan.note, id);
+  return scan;
+}
+
+void set_scan_state(Transaction& transaction, ScanId id, ScanState state, std::string_view failure) {
+  database_of(transaction).run("UPDATE scans SET state = ?, failure = ? WHERE id = ?", to_string(state), failure, id);
+}
+
+std::vector<PayloadRef> delete_scan(Transaction& transaction, ScanId id) {
+  const ScanRecord scan = existing(transaction, id);
+  require_deletable(transaction, scan);
+  std::vector<PayloadRef> payloads{scan.payload};
+  for (const ComparisonRecord& comparison : comparisons_of(transaction, id)) {
+    if (!comparison.payload.file.empty()) payloads.push_back(comparison.payload);
+    delete_comparison(transaction, comparison.id);
+  }
+  database_of(transaction).run("DELETE FROM scans WHERE id = ?", id);
+  drop_scan_from_vantage(transaction, scan.vantage);
+  return payloads;
+}
+
+}  // namespace raywatch

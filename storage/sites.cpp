@@ -1,0 +1,113 @@
+#include "storage/sites.hpp"
+
+#include <array>
+#include <limits>
+
+#include "storage/columns.hpp"
+#include "storage/cursor.hpp"
+#include "storage/snapshot.hpp"
+
+namespace raywatch {
+namespace {
+
+constexpr std::string_view kList = "sites";
+const std::string kSelect =
+    "SELECT id, name, time_zone, profile, epsg, origin_x_m, origin_y_m, origin_z_m, created_at FROM sites ";
+
+std::optional<Eigen::Vector3d> take_origin(Statement& row) {
+  const auto x = row.take<std::optional<double>>();
+  const auto y = row.take<std::optional<double>>();
+  const auto z = row.take<std::optional<double>>();
+  if (!x || !y || !z) return std::nullopt;
+  return Eigen::Vector3d(*x, *y, *z);
+}
+
+Site read_site(Statement& row) {
+  Site site;
+  site.id = row.take<SiteId>();
+  site.name = row.take<std::string>();
+  site.time_zone = row.take<std::string>();
+  site.profile = enum_from_text(row.take<std::string>(), {Profile::indoor, Profile::outdoor, Profile::survey});
+  site.epsg = row.take<std::optional<int>>();
+  site.origin_m = take_origin(row);
+  site.created_at = row.take<Time>();
+  return site;
+}
+
+template <class Key>
+std::optional<Site> find_by(const Snapshot& snapshot, std::string_view column, const Key& key) {
+  Statement row(database_of(snapshot), kSelect + "WHERE " + std::string(column) + " = ?");
+  if (!row.bind(key).next()) return std::nullopt;
+  return read_site(row);
+}
+
+Site existing(const Snapshot& snapshot, SiteId id) {
+  std::optional<Site> site = find_site(snapshot, id);
+  if (!site) throw NotFound("there is no site " + std::to_string(id.value));
+  return std::move(*site);
+}
+
+std::optional<double> coordinate(const std::optional<Eigen::Vector3d>& place, int axis) {
+  return place ? std::optional((*place)[axis]) : std::nullopt;
+}
+
+bool has_scans(const Snapshot& snapshot, SiteId id) {
+  return database_of(snapshot).find<int>("SELECT 1 FROM scans WHERE site = ? LIMIT 1", id).has_value();
+}
+
+}  // namespace
+
+Site insert_site(Transaction& transaction, const Site& site, Time now) {
+  transaction.impl().require_room_for_records();
+  if (find_site(transaction, site.name)) throw Conflict("there is a site named \"" + site.name + "\" already");
+  database_of(transaction)
+      .run(
+          "INSERT INTO sites (name, time_zone, profile, epsg, origin_x_m, origin_y_m, origin_z_m, created_at) "
+          "VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+          site.name, site.time_zone, to_string(site.profile), site.epsg, coordinate(site.origin_m, 0),
+          coordinate(site.origin_m, 1), coordinate(site.origin_m, 2), now);
+  return existing(transaction, SiteId{database_of(transaction).last_id()});
+}
+
+std::optional<Site> find_site(const Snapshot& snapshot, std::string_view name) {
+  return find_by(snapshot, "name", name);
+}
+
+std::optional<Site> find_site(const Snapshot& snapshot, SiteId id) { return find_by(snapshot, "id", id); }
+
+Page<Site> list_sites(const Snapshot& snapshot, const PageRequest& page) {
+  const auto [after] = key_before<1>(page, kList, {0});
+  Statement rows(database_of(snapshot), kSelect + "WHERE id > ? ORDER BY id LIMIT ?");
+  rows.bind(after, rows_to_read(page));
+  std::vector<Site> sites;
+  while (rows.next()) sites.push_back(read_site(rows));
+  return make_page(std::move(sites), page, kList, [](const Site& site) { return std::array{site.id.value}; });
+}
+
+Site edit_site(Transaction& transaction, SiteId id, const SiteEdit& edit) {
+  Site site = existing(transaction, id);
+  if (edit.origin_m && edit.origin_m != site.origin_m && has_scans(transaction, id)) {
+    throw Conflict("the origin of site \"" + site.name + "\" is fixed: what is stored is relative to it");
+  }
+  if (edit.time_zone) site.time_zone = *edit.time_zone;
+  if (edit.profile) site.profile = *edit.profile;
+  if (edit.epsg) site.epsg = edit.epsg;
+  if (edit.origin_m) site.origin_m = edit.origin_m;
+  database_of(transaction)
+      .run(
+          "UPDATE sites SET time_zone = ?, profile = ?, epsg = ?, origin_x_m = ?, origin_y_m = ?, origin_z_m = ? "
+          "WHERE id = ?",
+          site.time_zone, to_string(site.profile), site.epsg, coordinate(site.origin_m, 0),
+          coordinate(site.origin_m, 1), coordinate(site.origin_m, 2), id);
+  return site;
+}
+
+void delete_site(Transaction& transaction, SiteId id) {
+  const Site site = existing(transaction, id);
+  if (database_of(transaction).find<int>("SELECT 1 FROM sensors WHERE site = ? LIMIT 1", id)) {
+    throw Conflict("site \"" + site.name + "\" still has sensors");
+  }
+  database_of(transaction).run("DELETE FROM sites WHERE id = ?", id);
+}
+
+}  // namespace raywatch
