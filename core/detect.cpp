@@ -30,19 +30,6 @@ Epoch epoch_of(const ScanView& prior, const ScanView& scan, Duration tolerance) 
   return age > Duration::zero() ? Epoch::earlier : Epoch::later;
 }
 
-/// The class of a scan's point that is free in a prior of that epoch.
-PointClass class_of(Epoch prior) {
-  switch (prior) {
-    case Epoch::earlier:
-      return PointClass::added;
-    case Epoch::later:
-      return PointClass::removed;
-    case Epoch::contemporary:
-      break;
-  }
-  return PointClass::discrepancy;
-}
-
 /// The class of a point of a prior of that epoch that is free in the scan.
 PointClass class_of_prior_point(Epoch prior) {
   switch (prior) {
