@@ -54,7 +54,14 @@ struct ConfigReader::Impl {
   std::string name;
   toml::table root;
   std::vector<std::string> known;  ///< bound keys, in order
+  std::vector<std::string> changed;
   std::vector<FieldError> errors;
+
+  template <class T>
+  void assign(std::string_view key, const T& read, T& value) {
+    if (read != value) changed.emplace_back(key);
+    value = read;
+  }
 
   /// Registers the key and finds its value.
   const toml::node* bind(std::string_view key) {
@@ -76,7 +83,7 @@ struct ConfigReader::Impl {
     if (node == nullptr) return;
     const std::optional<T> read = node->value_exact<T>();
     if (read) {
-      value = *read;
+      assign(key, *read, value);
     } else {
       wrong_type(key, *node, wanted);
     }
@@ -85,7 +92,7 @@ struct ConfigReader::Impl {
   template <class T>
   void assign_allowed(std::string_view key, const toml::node& node, T read, T& value, const Allowed<T>& allowed) {
     if (read >= allowed.min && read <= allowed.max) {
-      value = read;
+      assign(key, read, value);
     } else {
       fail(key, node, "must be " + range_text(allowed) + ", not " + as_text(read));
     }
@@ -190,5 +197,7 @@ std::vector<std::string> ConfigReader::absent_keys() const {
   }
   return absent;
 }
+
+const std::vector<std::string>& ConfigReader::changed_keys() const { return impl_->changed; }
 
 }  // namespace raywatch

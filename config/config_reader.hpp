@@ -78,6 +78,8 @@ class ConfigReader {
 
   /// The bound keys that the file does not have, in the order of binding.
   std::vector<std::string> absent_keys() const;
+  /// The bound keys to which the file gave another value than the field had, in the order of binding.
+  const std::vector<std::string>& changed_keys() const;
 
  private:
   void read_whole(std::string_view key, std::int64_t& value, Allowed<std::int64_t> allowed);

@@ -65,11 +65,11 @@ Settings read_settings(const std::filesystem::path& file) { return read_all(Conf
 
 Settings parse_settings(std::string_view toml, const std::string& name) { return read_all(ConfigReader(toml, name)); }
 
-std::vector<std::string> absent_settings(std::string_view toml, const std::string& name) {
+SettingsReport compare_with_defaults(std::string_view toml, const std::string& name) {
   ConfigReader reader(toml, name);
   Settings ignored;
   bind_all(reader, ignored);
-  return reader.absent_keys();
+  return {reader.absent_keys(), reader.changed_keys()};
 }
 
 }  // namespace raywatch

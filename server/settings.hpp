@@ -23,7 +23,11 @@ Settings read_settings(const std::filesystem::path& file);
 /// The same from text; `name` stands in messages.
 Settings parse_settings(std::string_view toml, const std::string& name);
 
-/// The keys that a configuration file may have and this one does not.
-std::vector<std::string> absent_settings(std::string_view toml, const std::string& name);
+/// How a configuration file stands to the defaults.
+struct SettingsReport {
+  std::vector<std::string> absent;   ///< keys that a file may have and this one does not
+  std::vector<std::string> changed;  ///< keys with another value than the default
+};
+SettingsReport compare_with_defaults(std::string_view toml, const std::string& name);
 
 }  // namespace raywatch

@@ -1,0 +1,53 @@
+#include "server/settings.hpp"
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "core/error.hpp"
+
+namespace raywatch {
+namespace {
+
+std::string read_example() {
+  std::ifstream in(RAYWATCH_SOURCE_DIR "/config/raywatch.toml");
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+TEST_CASE("the example configuration shows every key at its default") {
+  const std::string example = read_example();
+  REQUIRE_NOTHROW(parse_settings(example, "raywatch.toml"));
+  const SettingsReport report = compare_with_defaults(example, "raywatch.toml");
+  CHECK(report.absent == std::vector<std::string>{});
+  CHECK(report.changed == std::vector<std::string>{});
+}
+
+TEST_CASE("settings reach the parts that they belong to") {
+  const Settings settings = parse_settings(
+      "[storage]\ndata_dir = '/data'\n[http]\nport = 9000\nmax_body_mib = 2\n[priors]\nmax_priors = 2\n"
+      "[ingest]\nqueue_limit = 7\n[compare]\nprevious_limit_h = 24\n[log]\nformat = 'json'\n",
+      "test.toml");
+  CHECK(settings.daemon.data_dir == "/data");
+  CHECK(settings.daemon.http.port == 9000);
+  CHECK(settings.daemon.http.max_body_bytes == 2u << 20);
+  CHECK(settings.daemon.choice.max_priors == 2);
+  CHECK(settings.daemon.queue_limit == 7);
+  CHECK(settings.daemon.previous_limit == std::chrono::hours(24));
+  CHECK(settings.log.format == "json");
+}
+
+TEST_CASE("a port that is none is refused with what is allowed") {
+  try {
+    parse_settings("[http]\nport = 70000\n", "test.toml");
+    FAIL("it was accepted");
+  } catch (const InvalidInput& error) {
+    REQUIRE(error.fields().size() == 1);
+    CHECK(error.fields()[0].field == "http.port");
+    CHECK(error.fields()[0].message == "line 2: must be 0 to 65535, not 70000");
+  }
+}
+
+}  // namespace raywatch
