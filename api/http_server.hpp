@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -12,12 +13,15 @@ namespace raywatch {
 
 struct HttpConfig {
   std::string host = "127.0.0.1";
-  std::uint16_t port = 8420;       ///< 0: any free one
-  bool allow_remote = false;       ///< without it only loopback addresses are listened on
+  std::uint16_t port = 8420;  ///< 0: any free one
+  bool allow_remote = false;  ///< without it only loopback addresses are listened on
   std::size_t threads = 16;
   std::uint64_t max_body_bytes = std::uint64_t{1} << 30;
-  std::filesystem::path spool_dir;  ///< where bodies are received
-  std::size_t max_wait_s = 60;      ///< upper bound for `Prefer: wait=N`
+  std::filesystem::path spool_dir;                  ///< where bodies are received
+  std::size_t max_wait_s = 60;                      ///< upper bound for `Prefer: wait=N`
+  std::chrono::milliseconds idle_timeout{5'000};    ///< a connection without a request is kept this long
+  std::chrono::milliseconds stall_timeout{10'000};  ///< a client that sends or takes nothing for this long is dropped
+  std::uint64_t min_client_bytes_per_s = 4096;      ///< and so is one that is slower than this, after that time
 };
 
 /// The REST API over HTTP. Listens from construction on; serves from `start` until `stop` or destruction.

@@ -29,7 +29,8 @@ struct UploadResult {
 
 /// What an operator asks for, carried out by the daemon. Every function is thread-safe and throws `core/error.hpp`.
 struct Commands {
-  /// Decodes, stores durably, and queues the comparison with the reference `previous`. Overloaded when the queue is full.
+  /// Decodes, stores durably, and queues the comparison with the reference `previous`. Overloaded when the queue is
+  /// full.
   std::function<UploadResult(const Upload&)> ingest;
   /// Queues a comparison of a stored scan. Overloaded when the queue is full.
   std::function<ComparisonRecord(ScanId, const Reference&, const CompareParameters&)> compare;

@@ -1,0 +1,90 @@
+#include <sstream>
+
+#include "api/call.hpp"
+#include "api/endpoints/endpoints.hpp"
+#include "api/json.hpp"
+#include "api/problem.hpp"
+
+namespace raywatch::endpoints {
+namespace {
+
+/// What keeps the daemon from its work, in words; empty when nothing does.
+std::string trouble(const DaemonStatus& status) {
+  if (!status.writable) return "The store cannot be written.";
+  if (status.workers_alive < status.workers_expected) {
+    return "Only " + std::to_string(status.workers_alive) + " of " + std::to_string(status.workers_expected) +
+           " workers are alive.";
+  }
+  return {};
+}
+
+class MetricsText {
+ public:
+  void add(const char* name, const char* type, const char* help, std::uint64_t value) {
+    head(name, type, help);
+    out_ << name << ' ' << value << '\n';
+  }
+  void head(const char* name, const char* type, const char* help) {
+    out_ << "# HELP " << name << ' ' << help << "\n# TYPE " << name << ' ' << type << '\n';
+  }
+  void add_answers(int hundreds, std::uint64_t value) {
+    out_ << "raywatch_http_answers_total{status=\"" << hundreds << "xx\"} " << value << '\n';
+  }
+  std::string text() const { return out_.str(); }
+
+ private:
+  std::ostringstream out_;
+};
+
+void add_daemon(MetricsText& metrics, const DaemonStatus& status) {
+  metrics.add("raywatch_store_writable", "gauge", "1 when the store can be written.", status.writable ? 1 : 0);
+  metrics.add("raywatch_workers_alive", "gauge", "Threads that run comparisons.", status.workers_alive);
+  metrics.add("raywatch_workers_expected", "gauge", "Threads that should.", status.workers_expected);
+  metrics.add("raywatch_queue_length", "gauge", "Comparisons that are not finished.", status.queue_length);
+  metrics.add("raywatch_queue_limit", "gauge", "Above this many, uploads are refused.", status.queue_limit);
+  metrics.add("raywatch_scans_ingested_total", "counter", "Scans stored since the start.", status.scans_ingested);
+  metrics.add("raywatch_comparisons_finished_total", "counter", "Comparisons finished since the start.",
+              status.comparisons_finished);
+  metrics.add("raywatch_comparisons_failed_total", "counter", "Comparisons failed since the start.",
+              status.comparisons_failed);
+  metrics.add("raywatch_index_cache_bytes", "gauge", "Memory of cached prior indexes.", status.index_cache_bytes);
+  metrics.add("raywatch_index_cache_limit_bytes", "gauge", "Its limit.", status.index_cache_limit_bytes);
+  metrics.add("raywatch_index_cache_hits_total", "counter", "Priors found in the cache.", status.index_cache_hits);
+  metrics.add("raywatch_index_cache_misses_total", "counter", "Priors indexed anew.", status.index_cache_misses);
+  metrics.add("raywatch_free_disk_bytes", "gauge", "Free space where the store lies.", status.free_disk_bytes);
+  metrics.add("raywatch_resident_memory_bytes", "gauge", "Memory of the program.", status.resident_bytes);
+}
+
+}  // namespace
+
+HttpAnswer get_health(Call& call) {
+  call.query.finish();
+  return json_answer({{"status", "ok"}});
+}
+
+HttpAnswer get_readiness(Call& call) {
+  call.query.finish();
+  const DaemonStatus status = call.services.status();
+  const std::string problem = trouble(status);
+  if (!problem.empty()) throw HttpError(not_ready(problem));
+  return json_answer({{"status", "ready"},
+                      {"workers", status.workers_alive},
+                      {"queue_length", status.queue_length},
+                      {"queue_limit", status.queue_limit}});
+}
+
+HttpAnswer get_metrics(Call& call) {
+  call.query.finish();
+  MetricsText metrics;
+  add_daemon(metrics, call.services.status());
+  metrics.head("raywatch_http_answers_total", "counter", "HTTP answers by the first digit of their status.");
+  for (int hundreds = 2; hundreds <= 5; ++hundreds) {
+    metrics.add_answers(hundreds, call.statistics.answers[static_cast<std::size_t>(hundreds)]);
+  }
+  HttpAnswer answer;
+  answer.content_type = "text/plain; version=0.0.4; charset=utf-8";
+  answer.body = metrics.text();
+  return answer;
+}
+
+}  // namespace raywatch::endpoints

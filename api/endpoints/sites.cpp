@@ -1,0 +1,101 @@
+#include "storage/sites.hpp"
+
+#include "api/call.hpp"
+#include "api/conditional.hpp"
+#include "api/endpoints/endpoints.hpp"
+#include "api/json_body.hpp"
+#include "api/json_object.hpp"
+#include "api/lookup.hpp"
+#include "api/name_rules.hpp"
+#include "api/render.hpp"
+
+namespace raywatch::endpoints {
+namespace {
+
+constexpr IntegerBounds kEpsgCodes{.min = 1024, .max = 32767};
+
+SiteEdit parse_edit(JsonObject& body) {
+  SiteEdit edit;
+  edit.time_zone = body.parsed("time_zone", checked_time_zone);
+  edit.profile = body.parsed("profile", parse_profile);
+  if (const auto epsg = body.integer("epsg", kEpsgCodes)) edit.epsg = static_cast<int>(*epsg);
+  edit.origin_m = body.vector3("origin_m");
+  return edit;
+}
+
+Site parse_site(const nlohmann::json& json) {
+  FieldErrors errors;
+  JsonObject body(json, "", errors);
+  body.require("name");
+  Site site;
+  site.name = body.parsed("name", checked_name).value_or("");
+  const SiteEdit given = parse_edit(body);
+  body.finish();
+  errors.throw_if_any();
+  site.time_zone = given.time_zone.value_or(site.time_zone);
+  site.profile = given.profile.value_or(site.profile);
+  site.epsg = given.epsg;
+  site.origin_m = given.origin_m;
+  return site;
+}
+
+SiteEdit parse_site_edit(const nlohmann::json& json) {
+  FieldErrors errors;
+  JsonObject body(json, "", errors);
+  const SiteEdit edit = parse_edit(body);
+  for (const char* name : {"time_zone", "profile", "epsg", "origin_m"}) body.refuse_null(name);
+  body.finish();
+  errors.throw_if_any();
+  return edit;
+}
+
+std::string tag_of(const Site& site) { return entity_tag(to_json_text(render(site))); }
+
+}  // namespace
+
+HttpAnswer create_site(Call& call) {
+  call.query.finish();
+  const Site site = parse_site(json_body(call));
+  const Time now = call.services.now();
+  const Site stored =
+      call.services.store.write([&](Transaction& transaction) { return insert_site(transaction, site, now); });
+  HttpAnswer answer = with_body_tag(json_answer(render(stored), 201), std::nullopt);
+  answer.set_header("Location", "/api/v1/sites/" + percent_encoded(stored.name));
+  return answer;
+}
+
+HttpAnswer list_sites(Call& call) {
+  const PageRequest page = call.query.page();
+  call.query.finish();
+  const auto sites =
+      call.services.store.read([&](const Snapshot& snapshot) { return raywatch::list_sites(snapshot, page); });
+  return json_answer(render_page(sites, [](const Site& site) { return render(site); }));
+}
+
+HttpAnswer get_site(Call& call) {
+  call.query.finish();
+  const Site site =
+      call.services.store.read([&](const Snapshot& snapshot) { return site_named(snapshot, call.path[0]); });
+  return with_body_tag(json_answer(render(site)), call.header("If-None-Match"));
+}
+
+HttpAnswer edit_site(Call& call) {
+  call.query.finish();
+  const SiteEdit edit = parse_site_edit(json_body(call));
+  const auto if_match = call.header("If-Match");
+  const Site site = call.services.store.write([&](Transaction& transaction) {
+    const Site before = site_named(transaction, call.path[0]);
+    check_if_match(if_match, tag_of(before));
+    return raywatch::edit_site(transaction, before.id, edit);
+  });
+  return with_body_tag(json_answer(render(site)), std::nullopt);
+}
+
+HttpAnswer delete_site(Call& call) {
+  call.query.finish();
+  call.services.store.write(
+      [&](Transaction& transaction) { raywatch::delete_site(transaction, site_named(transaction, call.path[0]).id); });
+  return {.status = 204};
+}
+
+}  // namespace raywatch::endpoints

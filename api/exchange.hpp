@@ -1,0 +1,27 @@
+#pragma once
+
+// Internal: only .cpp files of api/ include this.
+#include "api/call.hpp"
+#include "api/httplib.hpp"
+
+namespace raywatch {
+
+class Listener;
+
+/// What stays the same for all requests.
+struct ExchangeContext {
+  const Services& services;
+  const HttpConfig& config;
+  HttpStatistics& statistics;
+  Listener& listener;
+};
+
+/// Answers one request: finds its route, lets the endpoint work, and turns whatever it throws into a problem.
+/// @param reader of the content; null for methods without.
+void answer_request(const ExchangeContext& context, const httplib::Request& request, httplib::Response& response,
+                    const httplib::ContentReader* reader);
+
+/// The content's framing. @throws HttpError (400) for a length that is none or is given twice.
+RequestBody::Framing framing_of(const httplib::Request& request);
+
+}  // namespace raywatch

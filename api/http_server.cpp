@@ -1,0 +1,64 @@
+#include "api/http_server.hpp"
+
+#include <thread>
+
+#include "api/call.hpp"
+#include "api/exchange.hpp"
+#include "api/guard.hpp"
+#include "api/listener.hpp"
+#include "core/error.hpp"
+
+namespace raywatch {
+
+struct HttpServer::Impl {
+  Impl(const HttpConfig& given_config, const Services& given_services)
+      : config(given_config),
+        services(given_services),
+        listener(
+            config.threads, {config.idle_timeout, config.stall_timeout, config.min_client_bytes_per_s},
+            [this](const httplib::Request& request, httplib::Response& response, const httplib::ContentReader* reader) {
+              answer_request({services, config, statistics, listener}, request, response, reader);
+            }) {}
+
+  const HttpConfig config;
+  const Services services;
+  HttpStatistics statistics;
+  Listener listener;
+  std::uint16_t port = 0;
+  std::jthread thread;  // last: it uses all the others
+};
+
+HttpServer::HttpServer(const HttpConfig& config, const Services& services)
+    : impl_(std::make_unique<Impl>(config, services)) {
+  if (!config.allow_remote && !is_loopback_host(config.host)) {
+    throw InvalidInput("'" + config.host +
+                           "' is not a loopback address, and others are listened on only when that is " +
+                           "allowed explicitly.",
+                       {{"host", "is not a loopback address"}});
+  }
+  const auto port = impl_->listener.bind(config.host, config.port);
+  if (!port) {
+    throw InvalidInput("Cannot listen on " + config.host + ":" + std::to_string(config.port) +
+                           ": the address is in use or not this machine's.",
+                       {{"host", "cannot be listened on"}});
+  }
+  impl_->port = *port;
+}
+
+HttpServer::~HttpServer() { stop(); }
+
+std::uint16_t HttpServer::port() const { return impl_->port; }
+
+void HttpServer::start() {
+  if (impl_->thread.joinable()) return;
+  impl_->thread = std::jthread([this] { impl_->listener.serve(); });
+  impl_->listener.wait_until_serving();
+}
+
+void HttpServer::stop() {
+  if (!impl_->thread.joinable()) return;
+  impl_->listener.shut_down();
+  impl_->thread.join();
+}
+
+}  // namespace raywatch

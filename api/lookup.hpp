@@ -1,0 +1,36 @@
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "storage/comparisons.hpp"
+#include "storage/scans.hpp"
+#include "storage/sensors.hpp"
+#include "storage/sites.hpp"
+
+namespace raywatch {
+
+/// @{ What a name or an id stands for. @throws NotFound saying what does not exist.
+Site site_named(const Snapshot& snapshot, std::string_view name);
+Sensor sensor_named(const Snapshot& snapshot, std::string_view name);
+Site site_with(const Snapshot& snapshot, SiteId id);
+ScanRecord scan_with(const Snapshot& snapshot, ScanId id);
+ComparisonRecord comparison_with(const Snapshot& snapshot, ComparisonId id);
+ChangeRecord change_with(const Snapshot& snapshot, ChangeId id);
+/// @}
+
+/// The id in a path. What is no id names nothing. @throws NotFound.
+template <class SomeId>
+SomeId id_in_path(std::string_view text) {
+  SomeId id;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id.value);
+  if (error != std::errc{} || end != text.data() + text.size() || id.value < 1) {
+    throw NotFound("'" + std::string(text.substr(0, 64)) + "' is no id.");
+  }
+  return id;
+}
+
+}  // namespace raywatch

@@ -1,0 +1,14 @@
+#include "api/render.hpp"
+
+namespace raywatch {
+
+Json render(const Site& site) {
+  return {{"name", site.name},
+          {"time_zone", site.time_zone},
+          {"profile", to_string(site.profile)},
+          {"epsg", json_or_null(site.epsg)},
+          {"origin_m", site.origin_m ? render(*site.origin_m) : Json(nullptr)},
+          {"created_at", format_rfc3339(site.created_at)}};
+}
+
+}  // namespace raywatch
