@@ -47,7 +47,7 @@ FloorPlan furnish(Timeline& timeline, RandomSequence& random, const std::vector<
   FloorPlan floor({-kHalfYard_m + Eigen::Vector2d::Ones(), kHalfYard_m - Eigen::Vector2d::Ones()});
   for (const Lookout& view : views) {
     const Eigen::Vector2d mast_m = view.nominal_world_from_sensor.position_m.head<2>();
-    floor.keep_free(mast_m, 2.0);
+    floor.keep_free(mast_m, 4.0);
   }
   const auto scatter = [&](int count, double room_m, const auto& make) {
     for (int i = 0; i < count; ++i) {

@@ -120,8 +120,8 @@ class NightComparison {
       most_m = std::max(most_m, here_m[node] - there_m[node]);
     }
     if (most_m <= kRounding_m) return Standing::there;
-    // The vertical distance between steep surfaces is much larger than their true one.
-    return least_m * nights_[night]->normal(middle_m(cell)).z() >= kClearlyGone_m ? Standing::gone : Standing::unclear;
+    // Above a steep surface the vertical distance to it is much larger than the true one.
+    return least_m * nights_[other]->normal(middle_m(cell)).z() >= kClearlyGone_m ? Standing::gone : Standing::unclear;
   }
   /// The nights in which the surface is there; nothing if one of them is unclear.
   std::optional<std::uint64_t> nights_there(std::size_t cell, std::size_t night) const {

@@ -27,7 +27,7 @@ Eigen::Vector3d direction(double azimuth_rad, double elevation_rad) {
 bool hits_own_post(double azimuth_rad, double self_return_share) {
   const double turn = azimuth_rad / (2.0 * std::numbers::pi) + 1.0;
   const double within_sector = turn * kPosts - std::floor(turn * kPosts);
-  return within_sector < self_return_share;
+  return std::abs(within_sector - 0.5) < 0.5 * self_return_share;
 }
 
 /// One shot with all of its errors.
