@@ -39,8 +39,8 @@ std::vector<CandidateAssessment> choose(const std::vector<PriorCandidate>& candi
 }
 
 TEST_CASE("the scan that overlaps most is taken first, and one that sees elsewhere not at all") {
-  const auto assessed = choose({candidate({1, 0, 0}, -90, 0, 1h), candidate({0, 1, 0}, -90, 90, 2h),
-                                candidate({0, 0, 0}, 100, 170, 1h)});
+  const auto assessed =
+      choose({candidate({1, 0, 0}, -90, 0, 1h), candidate({0, 1, 0}, -90, 90, 2h), candidate({0, 0, 0}, 100, 170, 1h)});
   CHECK(assessed[0].overlap == doctest::Approx(0.5).epsilon(0.1));
   CHECK(assessed[1].overlap > 0.95);
   CHECK(assessed[1].chosen);
@@ -53,9 +53,8 @@ TEST_CASE("the scan that overlaps most is taken first, and one that sees elsewhe
 }
 
 TEST_CASE("two halves are preferred over the same half twice") {
-  const auto assessed = choose({candidate({0, 0, 0}, -90, 5, 1h), candidate({0.1, 0, 0}, -90, 4, 1h),
-                                candidate({0, 0.1, 0}, 10, 90, 1h)},
-                               2);
+  const auto assessed = choose(
+      {candidate({0, 0, 0}, -90, 5, 1h), candidate({0.1, 0, 0}, -90, 4, 1h), candidate({0, 0.1, 0}, 10, 90, 1h)}, 2);
   CHECK(assessed[0].chosen);
   CHECK_FALSE(assessed[1].chosen);
   CHECK(assessed[2].chosen);

@@ -6,8 +6,8 @@
 #include <pcl/kdtree/kdtree_flann.h>
 #include <pcl/search/kdtree.h>
 #include <pcl/segmentation/extract_clusters.h>
-#include <pcl/segmentation/impl/extract_clusters.hpp>
 #include <rapidcheck.h>
+#include <pcl/segmentation/impl/extract_clusters.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -90,7 +90,8 @@ TEST_CASE("points at the distance itself do not belong together") {
   CHECK(cluster_points(Points{{0, 0, 0}, {0.125f, 0, 0}}, 0.1251) == std::vector<std::uint32_t>{0, 0});
 }
 
-TEST_CASE("very many points in one place, and as many just beyond the distance, are clustered without pairing them all") {
+TEST_CASE(
+    "very many points in one place, and as many just beyond the distance, are clustered without pairing them all") {
   Points points;
   std::mt19937 random(3);
   std::uniform_real_distribution<float> unit(0.0f, 0.04f);
