@@ -17,6 +17,9 @@ void bind_http(ConfigReader& reader, HttpConfig& config) {
   reader.whole("http.threads", config.threads, {.min = 2, .max = 1024});
   reader.mebibytes("http.max_body_mib", config.max_body_bytes, {.min = 1, .max = 4096});
   reader.whole("http.max_wait_s", config.max_wait_s, {.min = 0, .max = 3600});
+  reader.duration("http.idle_timeout_ms", config.idle_timeout, {.min = 1, .max = 3'600'000});
+  reader.duration("http.stall_timeout_ms", config.stall_timeout, {.min = 1, .max = 3'600'000});
+  reader.whole("http.min_client_bytes_per_s", config.min_client_bytes_per_s, {});
 }
 
 void bind_ingest(ConfigReader& reader, DaemonConfig& config) {
