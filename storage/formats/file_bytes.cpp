@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "storage/formats/huge_pages.hpp"
 
 namespace raywatch {
 namespace {
@@ -64,7 +65,7 @@ FileBytes::FileBytes(const std::filesystem::path& path, std::uint64_t max_bytes)
   // Fresh pages from the system, huge ones where it has them: nothing is zeroed twice and few faults are taken.
   void* pages = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (pages == MAP_FAILED) throw_errno(path, "no memory to read it");
-  ::madvise(pages, size, MADV_HUGEPAGE);
+  prefer_huge_pages(pages, size);
   try {
     size_ = read_up_to(path, file.value(), static_cast<std::byte*>(pages), size);
   } catch (...) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -45,8 +47,9 @@ decltype(auto) visit_number(NumberType type, Use&& use) {
 /// The number at `at`, which need not be aligned. The bits of a NaN are kept.
 template <class T, std::endian order = std::endian::little>
 T load(const std::byte* at) {
-  std::byte bytes[sizeof(T)];
-  for (std::size_t i = 0; i < sizeof(T); ++i) bytes[i] = at[order == std::endian::native ? i : sizeof(T) - 1 - i];
+  std::array<std::byte, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), at, sizeof(T));
+  if constexpr (order != std::endian::native) std::reverse(bytes.begin(), bytes.end());
   return std::bit_cast<T>(bytes);
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "storage/formats/huge_pages.hpp"
 
 namespace raywatch {
 namespace {
@@ -45,6 +46,7 @@ void place_points(const PointFields& fields, std::size_t count, const Placement&
 template <std::endian order>
 void read_intensity(const FieldView& field, std::size_t count, std::vector<float>& intensity) {
   intensity.reserve(count);
+  prefer_huge_pages(intensity.data(), count * sizeof(float));
   if (field.type == NumberType::f32) {
     for (std::size_t first = 0; first < count; first += kBlock) {
       copy_floats<order>(field, first, std::min(count, first + kBlock), intensity);
@@ -58,6 +60,9 @@ template <std::endian order>
 PointCloud read_ordered(const PointFields& fields, std::size_t count, const Placement& placement) {
   PointCloud cloud;
   cloud.reserve(count);
+  for (const auto* plane : {&cloud.x_m, &cloud.y_m, &cloud.z_m}) {
+    prefer_huge_pages(plane->data(), count * sizeof(float));
+  }
   const bool floats =
       fields.x.type == NumberType::f32 && fields.y.type == NumberType::f32 && fields.z.type == NumberType::f32;
   if (floats && !placement.moves_points()) {
