@@ -96,7 +96,7 @@ std::size_t returns_from(const Timeline& timeline, const Lookout& lookout, const
   const Pose& pose = lookout.nominal_world_from_sensor;
   const Scanner scanner =
       aimed(timeline.scanners.at(lookout.scanner), pose.inverse() * box.center(), 0.5 * box.diagonal().norm());
-  const Scene scene = scene_at(timeline, {.plan = {}, .present = present});
+  const Scene scene = lasting_scene(timeline, present);
   const SimulatedScan scan = take_scan(RayCaster(scene), scanner, exact_plan(pose));
   return static_cast<std::size_t>(std::ranges::count(scan.labels, object));
 }

@@ -58,7 +58,8 @@ Scanner ring_scanner(const FamilyOptions& options);
 /// The same at density 1, so that what a story places does not depend on the density.
 Scanner usual_scanner(const FamilyOptions& options);
 
-/// How many returns without noise the lookout gets from an object that stands in the scene.
+/// How many returns without noise the lookout gets from an object that stands in the scene. Trees are left out: they
+/// stand behind everything that a story tells of.
 std::size_t returns_from(const Timeline& timeline, const Lookout& lookout, const std::vector<StateId>& present,
                          StateId object);
 

@@ -6,7 +6,7 @@
 namespace raywatch::simulator {
 namespace {
 
-constexpr int kLatticeSteps = 60;
+constexpr int kLatticeSteps = 40;
 
 /// The volume of the union of shapes, by the lattice points inside it.
 double union_volume_m3(const std::vector<Shape>& shapes, const Eigen::AlignedBox3d& box) {
@@ -40,9 +40,16 @@ StateId add_object(Timeline& timeline, const NewObject& object) {
   return timeline.objects.back().id;
 }
 
-Scene scene_at(const Timeline& timeline, const Moment& moment) {
+Scene lasting_scene(const Timeline& timeline, const std::vector<StateId>& present) {
   Scene scene;
   scene.add(timeline.background);
+  for (const StateId id : present) scene.add(timeline.object(id).shapes, id);
+  scene.present.insert(present.begin(), present.end());
+  return scene;
+}
+
+Scene scene_at(const Timeline& timeline, const Moment& moment) {
+  Scene scene = lasting_scene(timeline, moment.present);
   scene.add(moment.passing);
   for (std::size_t i = 0; i < timeline.trees.size(); ++i) {
     const Tree& tree = timeline.trees[i];
@@ -50,8 +57,6 @@ Scene scene_at(const Timeline& timeline, const Moment& moment) {
     scene.add(placed(trunk(tree.size), tree.stand));
     scene.add(placed(leaves(tree.size, wind_seed), tree.stand));
   }
-  for (const StateId id : moment.present) scene.add(timeline.object(id).shapes, id);
-  scene.present.insert(moment.present.begin(), moment.present.end());
   return scene;
 }
 

@@ -55,6 +55,9 @@ struct NewObject {
 /// counted on a lattice, to about one percent.
 StateId add_object(Timeline& timeline, const NewObject& object);
 
+/// The background and the objects, without trees and what is only passing.
+Scene lasting_scene(const Timeline& timeline, const std::vector<StateId>& present);
+
 Scene scene_at(const Timeline& timeline, const Moment& moment);
 
 SimulatedScan take_scan(const Timeline& timeline, const Moment& moment);
