@@ -21,7 +21,7 @@ constexpr std::array<TypeNames, 3> kTypeNames = {{{"4", "F", "float"}, {"1", "U"
 
 const TypeNames& type_names(const PointColumn& column) { return kTypeNames[column.values.index()]; }
 
-std::size_t length_of(const PointColumn& column) {
+[[maybe_unused]] std::size_t length_of(const PointColumn& column) {
   return std::visit([](const auto& values) { return values.size(); }, column.values);
 }
 
