@@ -152,6 +152,11 @@ std::string tables(const Snapshot& snapshot, const ChangeFilter& filter) {
   return "changes AS c INDEXED BY changes_by_time WHERE ";
 }
 
+/// All changes of a comparison have one time, so that its index has them in order.
+std::string order(const ChangeFilter& filter) {
+  return filter.comparison ? "c.place" : "c.captured_at DESC, c.comparison, c.place";
+}
+
 }  // namespace
 
 void insert_changes(Transaction& transaction, const ComparisonRecord& comparison, const std::vector<Change>& changes) {
@@ -169,7 +174,8 @@ Page<ChangeRecord> list_changes(const Snapshot& snapshot, const ChangeFilter& fi
       database_of(snapshot),
       "SELECT " + kColumns + " FROM " + tables(snapshot, filter) + conditions(filter) +
           "c.captured_at BETWEEN ?11 AND ?12 AND (c.captured_at < ?12 OR (c.comparison, c.place) > (?13, ?14)) "
-          "ORDER BY c.captured_at DESC, c.comparison, c.place LIMIT ?15");
+          "ORDER BY " +
+          order(filter) + " LIMIT ?15");
   bind_filter(rows, filter);
   rows.bind(span.from, span.after[0], span.after[1], span.after[2], rows_to_read(page));
   std::vector<ChangeRecord> changes;

@@ -1,52 +1,23 @@
 #include "storage/payloads.hpp"
 
 #include <algorithm>
+#include <array>
+#include <exception>
+#include <filesystem>
+#include <utility>
 
 #include "core/error.hpp"
 #include "storage/chunk_codec.hpp"
 #include "storage/class_codec.hpp"
 #include "storage/data_dir.hpp"
+#include "storage/payload_rows.hpp"
 #include "storage/payloads_impl.hpp"
 
 namespace raywatch {
 namespace {
 
-constexpr std::int64_t kChunksPerPayload = std::int64_t{1} << 20;
 /// Memory is taken for at most so many points before any of them was read.
 constexpr std::size_t kTrustedPoints = std::size_t{1} << 20;
-
-struct EncodedChunk {
-  std::optional<ChunkBounds> bounds;
-  std::vector<std::uint8_t> data;
-};
-
-/// A payload as it is written: everything that costs time was done in the caller's thread.
-struct EncodedPayload {
-  std::string_view kind;
-  std::uint64_t points = 0;
-  std::uint64_t prior_points = 0;
-  bool has_intensity = false;
-  std::optional<ShotGrid> grid;
-  std::vector<std::uint8_t> panorama;  ///< empty for comparisons
-  std::vector<EncodedChunk> chunks;
-
-  std::uint64_t bytes() const {
-    std::uint64_t sum = panorama.size();
-    for (const EncodedChunk& chunk : chunks) sum += chunk.data.size();
-    return sum;
-  }
-};
-
-/// A row of `payloads`.
-struct PayloadRow {
-  std::string kind;
-  std::uint64_t points = 0;
-  std::int64_t chunks = 0;
-  bool has_intensity = false;
-  std::optional<ShotGrid> grid;
-  std::uint64_t prior_points = 0;
-  std::uint64_t stored_bytes = 0;
-};
 
 std::vector<EncodedChunk> encode_chunks(const PointCloud& points) {
   BlockSealer sealer;
@@ -70,33 +41,6 @@ void require_one_length(const PointCloud& points) {
   if (size > kChunkPoints * static_cast<std::size_t>(kChunksPerPayload)) throw TooLarge("the scan has too many points");
 }
 
-void insert_chunks(Database& database, std::int64_t payload, const std::vector<EncodedChunk>& chunks) {
-  std::int64_t id = payload * kChunksPerPayload;
-  for (const EncodedChunk& chunk : chunks) {
-    Statement row(database, "INSERT INTO chunks VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
-    row.bind(id++);
-    for (const auto member :
-         {&ChunkBounds::azimuth_min_rad, &ChunkBounds::azimuth_max_rad, &ChunkBounds::elevation_min_rad,
-          &ChunkBounds::elevation_max_rad, &ChunkBounds::range_min_m, &ChunkBounds::range_max_m}) {
-      row.bind(chunk.bounds ? std::optional((*chunk.bounds).*member) : std::nullopt);
-    }
-    row.bind(chunk.data).next();
-  }
-}
-
-std::int64_t insert_payload(Database& database, const EncodedPayload& payload) {
-  database.run(
-      "INSERT INTO payloads (kind, points, chunks, has_intensity, grid_rows, grid_columns, prior_points, stored_bytes) "
-      "VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-      payload.kind, payload.points, payload.chunks.size(), payload.has_intensity,
-      payload.grid ? std::optional(payload.grid->rows) : std::nullopt,
-      payload.grid ? std::optional(payload.grid->columns) : std::nullopt, payload.prior_points, payload.bytes());
-  const std::int64_t key = database.last_id();
-  if (!payload.panorama.empty()) database.run("INSERT INTO panoramas VALUES (?, ?)", key, payload.panorama);
-  insert_chunks(database, key, payload.chunks);
-  return key;
-}
-
 PayloadRef put(Payloads::Impl& impl, const std::string& file, const EncodedPayload& payload) {
   std::int64_t key = 0;
   impl.writer.run([&] {
@@ -105,28 +49,6 @@ PayloadRef put(Payloads::Impl& impl, const std::string& file, const EncodedPaylo
     database.transact([&] { key = insert_payload(database, payload); });
   });
   return {file, key};
-}
-
-[[noreturn]] void throw_missing(const PayloadRef& ref) {
-  throw NotFound("there is no payload " + std::to_string(ref.key) + " in " + ref.file);
-}
-
-PayloadRow payload_row(Database& database, const PayloadRef& ref) {
-  Statement row(database,
-                "SELECT kind, points, chunks, has_intensity, grid_rows, grid_columns, prior_points, stored_bytes "
-                "FROM payloads WHERE id = ?");
-  if (!row.bind(ref.key).next()) throw_missing(ref);
-  PayloadRow payload;
-  payload.kind = row.take<std::string>();
-  payload.points = row.take<std::uint64_t>();
-  payload.chunks = row.take<std::int64_t>();
-  payload.has_intensity = row.take<bool>();
-  const auto rows = row.take<std::optional<std::uint32_t>>();
-  const auto columns = row.take<std::optional<std::uint32_t>>();
-  if (rows && columns) payload.grid = ShotGrid{*rows, *columns};
-  payload.prior_points = row.take<std::uint64_t>();
-  payload.stored_bytes = row.take<std::uint64_t>();
-  return payload;
 }
 
 /// Calls `f(database, row)` for a payload, and names the payload in what is thrown about its bytes.
@@ -164,27 +86,9 @@ void require_counts(const PayloadRow& row, std::int64_t chunks, std::uint64_t po
   if (chunks != row.chunks || points != row.points) throw CorruptData("chunks or points are missing");
 }
 
-ChunkBounds take_bounds(Statement& row) {
-  ChunkBounds bounds;
-  for (const auto member :
-       {&ChunkBounds::azimuth_min_rad, &ChunkBounds::azimuth_max_rad, &ChunkBounds::elevation_min_rad,
-        &ChunkBounds::elevation_max_rad, &ChunkBounds::range_min_m, &ChunkBounds::range_max_m}) {
-    bounds.*member = row.take<double>();
-  }
-  return bounds;
-}
-
-std::vector<std::int64_t> chunks_that_meet(Database& database, const PayloadRef& ref, const DirectionCone& cone) {
-  Statement rows(database,
-                 "SELECT id, azimuth_min_rad, azimuth_max_rad, elevation_min_rad, elevation_max_rad, range_min_m, "
-                 "range_max_m FROM chunks WHERE id >= ? AND id < ? AND azimuth_min_rad IS NOT NULL ORDER BY id");
-  rows.bind(ref.key * kChunksPerPayload, (ref.key + 1) * kChunksPerPayload);
-  std::vector<std::int64_t> ids;
-  while (rows.next()) {
-    const auto id = rows.take<std::int64_t>();
-    if (may_meet(take_bounds(rows), cone)) ids.push_back(id);
-  }
-  return ids;
+void delete_if_there(PayloadFiles& files, const PayloadRef& ref) {
+  if (ref.file.empty() || !std::filesystem::exists(files.data_dir() / ref.file)) return;
+  delete_payloads(files, ref.file, std::array{ref.key});
 }
 
 }  // namespace
@@ -280,23 +184,10 @@ void Payloads::remove(const PayloadRef& ref) {
   impl_->writer.run([&] {
     if (impl_->copies_running > 0) {
       impl_->held_back.push_back(ref);
-    } else if (!ref.file.empty() && std::filesystem::exists(impl_->files.data_dir() / ref.file)) {
-      delete_payloads(impl_->files, ref.file, std::array{ref.key});
+    } else {
+      delete_if_there(impl_->files, ref);
     }
   });
-}
-
-void delete_payloads(PayloadFiles& files, const std::string& file, std::span<const std::int64_t> keys) {
-  Database& database = files.writer(file);
-  database.transact([&] {
-    for (const std::int64_t key : keys) {
-      database.run("DELETE FROM chunks WHERE id >= ? AND id < ?", key * kChunksPerPayload,
-                   (key + 1) * kChunksPerPayload);
-      database.run("DELETE FROM panoramas WHERE payload = ?", key);
-      database.run("DELETE FROM payloads WHERE id = ?", key);
-    }
-  });
-  database.run("PRAGMA incremental_vacuum");
 }
 
 DeletionHold::DeletionHold(Payloads::Impl& payloads) : payloads_(payloads) {
@@ -308,8 +199,8 @@ DeletionHold::~DeletionHold() {
     if (--payloads_.copies_running > 0) return;
     for (const PayloadRef& ref : std::exchange(payloads_.held_back, {})) {
       try {
-        delete_payloads(payloads_.files, ref.file, std::array{ref.key});
-      } catch (const StorageError&) {
+        delete_if_there(payloads_.files, ref);
+      } catch (const std::exception&) {
         // It has no owner any more: the next start sweeps it.
       }
     }

@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <mutex>
-#include <span>
 #include <vector>
 
 #include "storage/payload_files.hpp"
@@ -35,8 +34,5 @@ class DeletionHold {
  private:
   Payloads::Impl& payloads_;
 };
-
-/// Deletes payloads of one file in one transaction. Only on the writer thread.
-void delete_payloads(PayloadFiles& files, const std::string& file, std::span<const std::int64_t> keys);
 
 }  // namespace raywatch

@@ -23,6 +23,11 @@ Site site_of(const Snapshot& snapshot, const ScanRecord& scan) {
   return std::move(*site);
 }
 
+void require_finite(const Pose& pose) {
+  if (pose.position_m.allFinite() && pose.orientation.coeffs().allFinite()) return;
+  throw InvalidInput("the pose is not finite", {{"pose", "must be finite"}});
+}
+
 void require_sensor_of_site(const Snapshot& snapshot, const ScanRecord& scan) {
   const std::optional<Sensor> sensor = find_sensor(snapshot, scan.sensor);
   if (!sensor) throw NotFound("there is no sensor " + std::to_string(scan.sensor.value));
@@ -162,6 +167,7 @@ ScanRecord read_scan(Statement& row) {
 
 ScanRecord insert_scan(Transaction& transaction, ScanRecord scan) {
   transaction.impl().require_room_for_records();
+  require_finite(scan.pose);
   require_sensor_of_site(transaction, scan);
   if (std::optional<ScanRecord> stored = same_scan(transaction, scan)) return std::move(*stored);
   const Site site = with_origin(transaction, site_of(transaction, scan), scan.pose.position_m);

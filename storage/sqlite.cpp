@@ -10,17 +10,20 @@ namespace {
 
 constexpr int kBusyTimeout_ms = 10'000;
 
-bool is_out_of_space(int system_error) {
-  return system_error == ENOSPC || system_error == EDQUOT || system_error == EFBIG;
+/// SQLite itself only knows ENOSPC as a full disk; a used-up quota and a limit of the file's size come as I/O errors.
+/// `errno` was cleared before the call that failed.
+bool was_out_of_space(sqlite3* handle) {
+  const auto is_space_error = [](int error) { return error == ENOSPC || error == EDQUOT || error == EFBIG; };
+  const int last = errno;
+  return is_space_error(last) || (handle && is_space_error(sqlite3_system_errno(handle)));
 }
 
 [[noreturn]] void throw_failure(sqlite3* handle, int code, const std::filesystem::path& file, std::string_view doing) {
+  const bool out_of_space = was_out_of_space(handle);
   const char* why = handle ? sqlite3_errmsg(handle) : sqlite3_errstr(code);
   const std::string message = file.string() + ": " + std::string(doing) + ": " + why;
   const int primary = code & 0xff;
-  if (primary == SQLITE_FULL || (primary == SQLITE_IOERR && handle && is_out_of_space(sqlite3_system_errno(handle)))) {
-    throw DiskFull(message);
-  }
+  if (primary == SQLITE_FULL || (primary == SQLITE_IOERR && out_of_space)) throw DiskFull(message);
   if (primary == SQLITE_CORRUPT || primary == SQLITE_NOTADB) throw CorruptData(message);
   throw StorageError(message);
 }
@@ -46,6 +49,7 @@ Statement::~Statement() { database_.give_back(sql_, handle_); }
 
 bool Statement::next() {
   column_ = 0;
+  errno = 0;
   const int code = sqlite3_step(handle_);
   if (code == SQLITE_ROW) return true;
   if (code != SQLITE_DONE) database_.fail(code, "cannot run a statement");
@@ -87,6 +91,7 @@ std::span<const std::uint8_t> Statement::take_blob() {
 }
 
 Database::Database(const std::filesystem::path& file, Access access) : file_(file) {
+  errno = 0;
   const int code = sqlite3_open_v2(file.c_str(), &handle_, open_flags(access) | SQLITE_OPEN_NOMUTEX, nullptr);
   if (code != SQLITE_OK) {
     const std::unique_ptr<sqlite3, decltype(&sqlite3_close)> failed(std::exchange(handle_, nullptr), &sqlite3_close);
@@ -118,6 +123,7 @@ sqlite3_stmt* Database::borrow(const std::string& sql) {
     return statement;
   }
   sqlite3_stmt* statement = nullptr;
+  errno = 0;
   const int code = sqlite3_prepare_v3(handle_, sql.c_str(), static_cast<int>(sql.size()) + 1, SQLITE_PREPARE_PERSISTENT,
                                       &statement, nullptr);
   if (code != SQLITE_OK) fail(code, "cannot prepare \"" + sql + "\"");
@@ -135,6 +141,7 @@ void Database::give_back(const std::string& sql, sqlite3_stmt* statement) noexce
 }
 
 void Database::run_script(const std::string& sql) {
+  errno = 0;
   const int code = sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr);
   if (code != SQLITE_OK) fail(code, "cannot run a script");
 }
@@ -179,6 +186,7 @@ void Database::copy_to(const std::filesystem::path& target) {
   Database copy(target, Access::create);
   sqlite3_backup* backup = sqlite3_backup_init(copy.handle_, "main", handle_, "main");
   if (!backup) copy.fail(sqlite3_errcode(copy.handle_), "cannot start a copy");
+  errno = 0;
   // One step over all pages holds one read lock: the copy is of one moment, and writing goes on meanwhile.
   sqlite3_backup_step(backup, -1);
   const int code = sqlite3_backup_finish(backup);

@@ -42,6 +42,7 @@ struct Store::Impl {
   explicit Impl(const StoreOptions& options);
 
   void open();
+  void open_files();
   void close() noexcept;
 
   StoreOptions options;
@@ -69,6 +70,16 @@ void Store::Impl::open() {
   require_metadata_beside_payloads(files);
   report.unclean_stop = marker.found();
   marker.set();
+  try {
+    open_files();
+  } catch (...) {
+    // A refusal is no unclean stop; after one, the check is still due.
+    if (!report.unclean_stop) close();
+    throw;
+  }
+}
+
+void Store::Impl::open_files() {
   metadata = std::make_unique<Database>(data_dir / kMetadataFile, Database::Access::create);
   if (report.unclean_stop) require_sound(*metadata);
   migrate(*metadata, metadata_migrations(), CopyBefore::yes);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "storage/payloads_impl.hpp"
+#include "storage/payload_rows.hpp"
 
 namespace raywatch {
 namespace {
