@@ -1,5 +1,7 @@
 #include "server/comparison_runner.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -195,7 +197,11 @@ void ComparisonRunner::commit(const Job& job, const Subject& subject, Comparison
   const Time now = now_();
   const bool is_first =
       store_.write([&](Transaction& transaction) { return finish_job(transaction, job, result, now); });
-  if (is_first) written.keep();
+  if (!is_first) return;
+  written.keep();
+  spdlog::log(result.changes.empty() ? spdlog::level::debug : spdlog::level::info,
+              "scan {} compared with {} others in {:.0f} ms: {} changes", subject.scan.id.value, result.priors.size(),
+              result.timings_ms.at("total"), result.changes.size());
 }
 
 }  // namespace raywatch
