@@ -144,62 +144,72 @@ Eigen::Vector3d HeightField::normal(const Eigen::Vector2d& place_m) const {
   return Eigen::Vector3d(-slope_x, -slope_y, 1.0).normalized();
 }
 
+/// A ray in the units of the field: cells along x and y, metres along z and along the ray.
+struct HeightField::CellRay {
+  double u0, v0, z0;
+  double du, dv, dz;
+
+  CellRay(const Ray& ray, const FieldLayout& layout)
+      : u0((ray.origin_m.x() - layout.origin_m.x()) / layout.cell_m),
+        v0((ray.origin_m.y() - layout.origin_m.y()) / layout.cell_m),
+        z0(ray.origin_m.z()),
+        du(ray.direction.x() / layout.cell_m),
+        dv(ray.direction.y() / layout.cell_m),
+        dz(ray.direction.z()) {}
+  double u(double t) const { return u0 + du * t; }
+  double v(double t) const { return v0 + dv * t; }
+  double z(double t) const { return z0 + dz * t; }
+};
+
+HeightField::Stretch HeightField::stretch_within(const CellRay& ray) const {
+  Stretch within{kNearestHit_m, kInfinity};
+  clip(ray.u0, ray.du, layout_.columns - 1, within.from, within.to);
+  clip(ray.v0, ray.dv, layout_.rows - 1, within.from, within.to);
+  const double low_m = lowest_m() - kSliver_m;
+  clip(ray.z0 - low_m, ray.dz, highest_m() + kSliver_m - low_m, within.from, within.to);
+  return within;
+}
+
+bool HeightField::may_hit(const CellRay& ray, const Stretch& part, const Level& level, std::size_t block) {
+  const auto [low_m, high_m] = std::minmax({ray.z(part.from), ray.z(part.to)});
+  return low_m <= level.highest_m[block] + kSliver_m && high_m >= level.lowest_m[block] - kSliver_m;
+}
+
+std::optional<double> HeightField::hit_in_cell(const CellRay& ray, const Stretch& part, std::uint32_t column,
+                                               std::uint32_t row) const {
+  // The equation is written relative to the start of the stretch, where the numbers are small.
+  const Patch patch(*this, column, row);
+  const double u = ray.u(part.from) - column;
+  const double v = ray.v(part.from) - row;
+  const double a = -patch.d * ray.du * ray.dv;
+  const double b = ray.dz - patch.b * ray.du - patch.c * ray.dv - patch.d * (u * ray.dv + v * ray.du);
+  const double c = ray.z(part.from) - patch.at(u, v);
+  const auto root = first_root({a, b, c}, -kNudge_m, part.to - part.from + kNudge_m);
+  if (!root || part.from + *root <= kNearestHit_m) return std::nullopt;
+  return part.from + *root;
+}
+
 std::optional<double> HeightField::intersect(const Ray& ray) const {
-  // Along x and y in units of cells, along z and the ray in metres.
-  const double u0 = (ray.origin_m.x() - layout_.origin_m.x()) / layout_.cell_m;
-  const double v0 = (ray.origin_m.y() - layout_.origin_m.y()) / layout_.cell_m;
-  const double du = ray.direction.x() / layout_.cell_m;
-  const double dv = ray.direction.y() / layout_.cell_m;
-  const double z0 = ray.origin_m.z();
-  const double dz = ray.direction.z();
-
-  double t = kNearestHit_m;
-  double end = kInfinity;
-  clip(u0, du, layout_.columns - 1, t, end);
-  clip(v0, dv, layout_.rows - 1, t, end);
-  if (dz != 0.0) {
-    const double a = (lowest_m() - z0) / dz;
-    const double b = (highest_m() - z0) / dz;
-    t = std::max(t, std::min(a, b));
-    end = std::min(end, std::max(a, b) + kNudge_m);
-  } else if (z0 < lowest_m() || z0 > highest_m()) {
-    return std::nullopt;
-  }
-
+  const CellRay cell_ray(ray, layout_);
+  Stretch ahead = stretch_within(cell_ray);
   const auto top = static_cast<unsigned>(levels_.size() - 1);
   unsigned level = top;
-  while (t < end) {
-    const std::uint32_t column = cell_index(u0 + du * (t + kNudge_m), layout_.columns);
-    const std::uint32_t row = cell_index(v0 + dv * (t + kNudge_m), layout_.rows);
-    const std::uint32_t block_column = column >> level;
-    const std::uint32_t block_row = row >> level;
-    const double leave = std::min({end, block_end(u0, du, block_column, level), block_end(v0, dv, block_row, level)});
-    const double next = std::max(leave, t + kNudge_m);
-    const Level& blocks = levels_[level];
-    const std::size_t block = std::size_t{block_row} * blocks.columns + block_column;
-    const double z_here = z0 + dz * t;
-    const double z_there = z0 + dz * next;
-    if (std::min(z_here, z_there) > blocks.highest_m[block] + kSliver_m ||
-        std::max(z_here, z_there) < blocks.lowest_m[block] - kSliver_m) {
-      t = next;
+  while (ahead.from < ahead.to) {
+    const std::uint32_t column = cell_index(cell_ray.u(ahead.from + kNudge_m), layout_.columns);
+    const std::uint32_t row = cell_index(cell_ray.v(ahead.from + kNudge_m), layout_.rows);
+    const double leave_m = std::min({ahead.to, block_end(cell_ray.u0, cell_ray.du, column >> level, level),
+                                     block_end(cell_ray.v0, cell_ray.dv, row >> level, level)});
+    const Stretch part{ahead.from, std::max(leave_m, ahead.from + kNudge_m)};
+    const std::size_t block = std::size_t{row >> level} * levels_[level].columns + (column >> level);
+    if (!may_hit(cell_ray, part, levels_[level], block)) {
+      ahead.from = part.to;
       level = std::min(level + 1, top);
-      continue;
-    }
-    if (level > 0) {
+    } else if (level > 0) {
       --level;
-      continue;
+    } else {
+      if (const auto hit = hit_in_cell(cell_ray, part, column, row)) return hit;
+      ahead.from = part.to;
     }
-    // The equation is written relative to t, where the numbers are small.
-    const Patch patch(*this, column, row);
-    const double u = u0 + du * t - column;
-    const double v = v0 + dv * t - row;
-    const double above = z_here - patch.at(u, v);
-    const std::array<double, 3> equation{-patch.d * du * dv,
-                                         dz - patch.b * du - patch.c * dv - patch.d * (u * dv + v * du), above};
-    if (const auto root = first_root(equation, -kNudge_m, next - t + kNudge_m)) {
-      if (t + *root > kNearestHit_m) return t + *root;
-    }
-    t = next;
   }
   return std::nullopt;
 }

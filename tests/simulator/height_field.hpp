@@ -57,8 +57,19 @@ class HeightField {
     std::vector<double> lowest_m, highest_m;
   };
   struct Patch;
+  struct CellRay;
+  /// A part of a ray, as distances along it.
+  struct Stretch {
+    double from;
+    double to;
+  };
 
   void build_pyramid();
+  /// Where the ray is above or below the field's area and within its heights.
+  Stretch stretch_within(const CellRay& ray) const;
+  static bool may_hit(const CellRay& ray, const Stretch& part, const Level& level, std::size_t block);
+  std::optional<double> hit_in_cell(const CellRay& ray, const Stretch& part, std::uint32_t column,
+                                    std::uint32_t row) const;
   double node_height_m(std::uint32_t column, std::uint32_t row) const {
     return heights_m_[std::size_t{row} * layout_.columns + column];
   }
