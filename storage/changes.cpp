@@ -53,8 +53,8 @@ ChangeRecord read_change(Statement& row) {
 void insert_bounds(Database& database, ChangeId id, SiteId site, const Eigen::AlignedBox3d& box) {
   const auto site_key = static_cast<double>(site.value);
   Statement row(database, "INSERT INTO change_bounds VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  row.bind(id, float_below(site_key), float_above(site_key));
-  for (int axis = 0; axis < 3; ++axis) row.bind(float_below(box.min()[axis]), float_above(box.max()[axis]));
+  row.bind(id, tree_min(site_key), tree_max(site_key));
+  for (int axis = 0; axis < 3; ++axis) row.bind(tree_min(box.min()[axis]), tree_max(box.max()[axis]));
   row.next();
 }
 

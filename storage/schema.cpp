@@ -10,8 +10,8 @@ namespace {
 // AUTOINCREMENT: an id is never used again. References to things that may be deleted while the record stays (priors,
 // candidates, registrations) are plain numbers.
 //
-// R*Trees keep 32-bit floats: bounds are rounded outwards on the way in, and every hit is checked again in double.
-// Their first dimension is the site, so that sites do not meet.
+// R*Trees keep 32-bit floats: bounds are rounded outwards and widened on the way in (storage/spatial.hpp), and every
+// hit is checked again in double. Their first dimension is the site, so that sites do not meet.
 constexpr std::string_view kMetadata1 = R"sql(
 CREATE TABLE sites (
   id INTEGER PRIMARY KEY AUTOINCREMENT,

@@ -23,7 +23,8 @@ std::uint32_t checksum(std::span<const std::uint8_t> block) {
 
 BlockSealer::BlockSealer() : context_(ZSTD_createCCtx()) {
   if (!context_) throw std::bad_alloc();
-  // On indoor scans level 1 gives the size of level 3 within 1 % at twice its speed.
+  // Measured on two indoor scans of 12 bytes a point, shuffled: level 1 gives 8.8 and 4.4 bytes a point, level 3
+  // saves 1.3 % of that at a third of the speed.
   ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, 1);
 }
 

@@ -72,9 +72,9 @@ VantageId insert_vantage(Transaction& transaction, SiteId site, const Eigen::Vec
                place_m.y(), place_m.z());
   const VantageId id{database.last_id()};
   const auto site_key = static_cast<double>(site.value);
-  database.run("INSERT INTO vantage_places VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)", id, float_below(site_key),
-               float_above(site_key), float_below(place_m.x()), float_above(place_m.x()), float_below(place_m.y()),
-               float_above(place_m.y()), float_below(place_m.z()), float_above(place_m.z()));
+  database.run("INSERT INTO vantage_places VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)", id, tree_min(site_key),
+               tree_max(site_key), tree_min(place_m.x()), tree_max(place_m.x()), tree_min(place_m.y()),
+               tree_max(place_m.y()), tree_min(place_m.z()), tree_max(place_m.z()));
   return id;
 }
 
