@@ -136,8 +136,8 @@ void bind_filter(Statement& rows, const ChangeFilter& filter) {
 constexpr std::int64_t kManyHits = 5000;
 
 bool has_few_hits(const Snapshot& snapshot, const ChangeFilter& filter) {
-  Statement row(database_of(snapshot), "SELECT count(*) FROM (SELECT 1 FROM change_bounds AS b WHERE " + kInBox +
-                                           "AND ?2 IS ?2 AND ?3 IS ?3 AND ?4 IS ?4 LIMIT ?11)");
+  Statement row(database_of(snapshot),
+                "SELECT count(*) FROM (SELECT 1 FROM change_bounds AS b WHERE " + kInBox + "LIMIT ?11)");
   bind_filter(row, filter);
   row.bind(kManyHits).next();
   return row.take<std::int64_t>() < kManyHits;

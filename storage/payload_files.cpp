@@ -1,6 +1,7 @@
 #include "storage/payload_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 
@@ -24,12 +25,12 @@ std::unique_ptr<Database> open_for_writing(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::string payload_file_name(SiteId site, Time captured_at) {
+std::string payload_file_name(SiteId site, Time captured_at, int part) {
   const std::chrono::year_month_day day(std::chrono::floor<std::chrono::days>(captured_at));
   std::array<char, 64> name{};
-  std::snprintf(name.data(), name.size(), "payload/%lld/%04d-%02u.db", static_cast<long long>(site.value),
+  std::snprintf(name.data(), name.size(), "payload/%lld/%04d-%02u", static_cast<long long>(site.value),
                 static_cast<int>(day.year()), static_cast<unsigned>(day.month()));
-  return name.data();
+  return name.data() + (part > 1 ? "." + std::to_string(part) : std::string()) + ".db";
 }
 
 Database& PayloadFiles::writer(const std::string& file) {

@@ -14,8 +14,9 @@
 
 namespace raywatch {
 
-/// The file of a site and a month (UTC), relative to the data directory: "payload/3/2026-11.db".
-std::string payload_file_name(SiteId site, Time captured_at);
+/// The file of a site and a month (UTC), relative to the data directory: "payload/3/2026-11.db". After a file was
+/// damaged the month goes on in another `part`: "payload/3/2026-11.2.db".
+std::string payload_file_name(SiteId site, Time captured_at, int part = 1);
 
 /// The connections to the payload files. Months accumulate, so only the last used ones stay open.
 class PayloadFiles {

@@ -41,14 +41,37 @@ void require_one_length(const PointCloud& points) {
   if (size > kChunkPoints * static_cast<std::size_t>(kChunksPerPayload)) throw TooLarge("the scan has too many points");
 }
 
-PayloadRef put(Payloads::Impl& impl, const std::string& file, const EncodedPayload& payload) {
-  std::int64_t key = 0;
+/// Where a payload is put, and how far the search for a sound file of its month goes.
+struct Place {
+  SiteId site;
+  Time captured_at;
+};
+constexpr int kMaxParts = 100;
+
+/// Writes into the first part of the month that is not damaged. On the writer thread.
+PayloadRef put_into_sound_file(Payloads::Impl& impl, const Place& place, const EncodedPayload& payload) {
+  for (int part = 1;; ++part) {
+    const std::string file = payload_file_name(place.site, place.captured_at, part);
+    if (impl.damaged.contains(file)) continue;
+    try {
+      Database& database = impl.files.writer(file);
+      std::int64_t key = 0;
+      database.transact([&] { key = insert_payload(database, payload); });
+      return {file, key};
+    } catch (const CorruptData&) {
+      if (part == kMaxParts) throw;
+      impl.damaged.insert(file);
+    }
+  }
+}
+
+PayloadRef put(Payloads::Impl& impl, const Place& place, const EncodedPayload& payload) {
+  PayloadRef ref;
   impl.writer.run([&] {
     require_room(impl.files.data_dir(), {.bytes = payload.bytes(), .reserve_bytes = impl.min_free_bytes});
-    Database& database = impl.files.writer(file);
-    database.transact([&] { key = insert_payload(database, payload); });
+    ref = put_into_sound_file(impl, place, payload);
   });
-  return {file, key};
+  return ref;
 }
 
 /// Calls `f(database, row)` for a payload, and names the payload in what is thrown about its bytes.
@@ -106,7 +129,7 @@ PayloadRef Payloads::put_scan(SiteId site, Time captured_at, const PointCloud& p
                          .grid = points.grid,
                          .panorama = BlockSealer().seal({.kind = BlockKind::panorama, .elements = 1}, panorama_bytes),
                          .chunks = encode_chunks(points)};
-  return put(*impl_, payload_file_name(site, captured_at), payload);
+  return put(*impl_, {site, captured_at}, payload);
 }
 
 PointCloud Payloads::scan_points(const PayloadRef& ref) const {
@@ -165,7 +188,7 @@ PayloadRef Payloads::put_comparison(SiteId site, Time captured_at, const Compari
   for (std::vector<std::uint8_t>& block : encode_classes(points)) {
     payload.chunks.push_back({std::nullopt, std::move(block)});
   }
-  return put(*impl_, payload_file_name(site, captured_at), payload);
+  return put(*impl_, {site, captured_at}, payload);
 }
 
 ComparisonPoints Payloads::comparison_points(const PayloadRef& ref) const {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <atomic>
-#include <mutex>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "storage/payload_files.hpp"
@@ -18,6 +18,8 @@ struct Payloads::Impl {
   WriterThread& writer;
   std::uint64_t min_free_bytes;
 
+  /// Damaged files, into which nothing more is written. Used on the writer thread only.
+  std::set<std::string> damaged;
   /// While payloads are copied, deletions wait here. Used on the writer thread only.
   int copies_running = 0;
   std::vector<PayloadRef> held_back;

@@ -83,6 +83,7 @@ void Store::Impl::open_files() {
   metadata = std::make_unique<Database>(data_dir / kMetadataFile, Database::Access::create);
   if (report.unclean_stop) require_sound(*metadata);
   migrate(*metadata, metadata_migrations(), CopyBefore::yes);
+  metadata->run_script("PRAGMA journal_size_limit = 67108864");
   sweep_payloads(*metadata, files, report);
   sweep_spool(data_dir, report);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 #include "storage/payload_rows.hpp"
 
@@ -28,23 +29,57 @@ std::vector<std::int64_t> stored_keys(PayloadFiles& files, const std::string& fi
   return numbers(rows);
 }
 
+std::vector<std::int64_t> difference(const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b) {
+  std::vector<std::int64_t> rest;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(rest));
+  return rest;
+}
+
+/// A file that was lost or emptied would begin to count again, and old records would lead to new payloads.
+void keep_keys_used(Database& payloads, std::int64_t last) {
+  payloads.run(
+      "INSERT INTO sqlite_sequence (name, seq) SELECT 'payloads', 0 "
+      "WHERE NOT EXISTS (SELECT 1 FROM sqlite_sequence WHERE name = 'payloads')");
+  payloads.run("UPDATE sqlite_sequence SET seq = max(seq, ?) WHERE name = 'payloads'", last);
+}
+
 void sweep_file(Database& metadata, PayloadFiles& files, const std::string& file, OpenReport& report) {
   const std::vector<std::int64_t> owned = owned_keys(metadata, file);
   const std::vector<std::int64_t> stored = stored_keys(files, file);
-  std::vector<std::int64_t> orphans;
-  std::set_difference(stored.begin(), stored.end(), owned.begin(), owned.end(), std::back_inserter(orphans));
+  const std::vector<std::int64_t> orphans = difference(stored, owned);
   report.swept_payloads += orphans.size();
-  if (owned.empty()) {
-    files.remove(file);
-  } else if (!orphans.empty()) {
-    delete_payloads(files, file, orphans);
+  if (owned.empty()) return files.remove(file);
+  if (!orphans.empty()) delete_payloads(files, file, orphans);
+  if (const std::vector<std::int64_t> missing = difference(owned, stored); !missing.empty()) {
+    keep_keys_used(files.writer(file), owned.back());
+    report.warnings.push_back(file + ": " + std::to_string(missing.size()) +
+                              " payloads are missing: restore the file from a backup");
   }
+}
+
+/// The files that a table refers to, each found by one step through its index.
+void add_referenced(Database& metadata, const std::string& table, std::set<std::string>& files) {
+  std::string last;
+  const std::string next = "SELECT payload_file FROM " + table + " INDEXED BY " + table +
+                           "_by_payload WHERE payload_file > ? ORDER BY 1 LIMIT 1";
+  while (const auto file = metadata.find<std::string>(next, last)) {
+    files.insert(*file);
+    last = *file;
+  }
+}
+
+std::set<std::string> all_files(Database& metadata, const PayloadFiles& files) {
+  const std::vector<std::string> on_disk = files.on_disk();
+  std::set<std::string> all(on_disk.begin(), on_disk.end());
+  add_referenced(metadata, "scans", all);
+  add_referenced(metadata, "comparisons", all);
+  return all;
 }
 
 }  // namespace
 
 void sweep_payloads(Database& metadata, PayloadFiles& files, OpenReport& report) {
-  for (const std::string& file : files.on_disk()) {
+  for (const std::string& file : all_files(metadata, files)) {
     try {
       sweep_file(metadata, files, file, report);
     } catch (const CorruptData& error) {

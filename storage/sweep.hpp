@@ -14,7 +14,7 @@ struct OpenReport {
   bool unclean_stop = false;            ///< the store before was not closed
   std::uint64_t swept_payloads = 0;     ///< payloads that no record refers to
   std::uint64_t swept_spool_files = 0;  ///< uploads that were never finished
-  std::vector<std::string> warnings;    ///< payload files that cannot be read
+  std::vector<std::string> warnings;    ///< payload files that are damaged, payloads that are missing
 };
 
 /// Deletes payloads that neither scans nor comparisons refer to: a stop between the payload's commit and the record's

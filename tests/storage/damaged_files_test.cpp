@@ -41,6 +41,38 @@ TEST_CASE("a scan whose file was cut short is corrupt; the store opens and its o
   CHECK(same_bits(store.payloads().scan_points(closed.february), cloud_of(20'000, 2)));
 }
 
+TEST_CASE("a month whose file is damaged goes on in another file") {
+  const ClosedStore closed;
+  std::ofstream(closed.directory / closed.january.file, std::ios::binary) << std::string(40'000, 'x');
+  Store store(options_for(closed.directory.path()));
+  for (std::uint32_t seed = 5; seed < 8; ++seed) {
+    const PayloadRef ref = store.payloads().put_scan(SiteId{1}, at_second(0), cloud_of(100, seed), empty_panorama());
+    CHECK(ref.file == "payload/1/2026-01.2.db");
+    CHECK(same_bits(store.payloads().scan_points(ref), cloud_of(100, seed)));
+  }
+  CHECK_THROWS_AS(store.payloads().scan_points(closed.january), CorruptData);
+}
+
+TEST_CASE("the record of a payload that was lost never leads to another's points") {
+  for (const bool remove : {true, false}) {
+    CAPTURE(remove);
+    const ClosedStore closed;
+    const std::filesystem::path file = closed.directory / closed.january.file;
+    if (remove) {
+      std::filesystem::remove(file);
+    } else {
+      std::filesystem::resize_file(file, 0);
+    }
+    Store store(options_for(closed.directory.path()));
+    REQUIRE(store.open_report().warnings.size() == 1);
+    CHECK(store.open_report().warnings[0].find("1 payloads are missing") != std::string::npos);
+    const PayloadRef other = store.payloads().put_scan(SiteId{1}, at_second(0), cloud_of(100, 5), empty_panorama());
+    CHECK(other.file == closed.january.file);
+    CHECK_THROWS_AS(store.payloads().scan_points(closed.january), NotFound);
+    CHECK(same_bits(store.payloads().scan_points(other), cloud_of(100, 5)));
+  }
+}
+
 TEST_CASE("a flipped byte in a payload file never gives other points") {
   const ClosedStore closed;
   const auto size = static_cast<std::streamoff>(std::filesystem::file_size(closed.directory / closed.january.file));
