@@ -142,6 +142,14 @@ RequestBody::Framing framing_of(const httplib::Request& request) {
   return framing;
 }
 
+void refuse_too_large(const HttpConfig& config, const httplib::Request& request, httplib::Response& response) {
+  const auto length = parse_integer(request.get_header_value("Content-Length"));
+  if (!length || *length <= 0 || static_cast<std::uint64_t>(*length) <= config.max_body_bytes) return;
+  HttpAnswer answer = to_answer(problem_of(std::make_exception_ptr(too_large(config.max_body_bytes))));
+  answer.set_header("Connection", "close");
+  fill_response(request, std::move(answer), response);
+}
+
 void answer_request(const ExchangeContext& context, const httplib::Request& request, httplib::Response& response,
                     const httplib::ContentReader* reader) {
   HttpAnswer answer;

@@ -21,6 +21,9 @@ struct ExchangeContext {
 void answer_request(const ExchangeContext& context, const httplib::Request& request, httplib::Response& response,
                     const httplib::ContentReader* reader);
 
+/// Refuses content that is announced to be larger than anything that is taken.
+void refuse_too_large(const HttpConfig& config, const httplib::Request& request, httplib::Response& response);
+
 /// The content's framing. @throws HttpError (400) for a length that is none or is given twice.
 RequestBody::Framing framing_of(const httplib::Request& request);
 

@@ -16,9 +16,13 @@ struct HttpServer::Impl {
         services(given_services),
         listener(
             config.threads, {config.idle_timeout, config.stall_timeout, config.min_client_bytes_per_s},
-            [this](const httplib::Request& request, httplib::Response& response, const httplib::ContentReader* reader) {
-              answer_request({services, config, statistics, listener}, request, response, reader);
-            }) {}
+            {.handle =
+                 [this](const httplib::Request& request, httplib::Response& response,
+                        const httplib::ContentReader* reader) {
+                   answer_request({services, config, statistics, listener}, request, response, reader);
+                 },
+             .refuse_early = [this](const httplib::Request& request,
+                                    httplib::Response& response) { refuse_too_large(config, request, response); }}) {}
 
   const HttpConfig config;
   const Services services;

@@ -64,8 +64,8 @@ class Listener::Served {
   Listener& listener_;
 };
 
-Listener::Listener(std::size_t threads, const ClientLimits& limits, Handle handle)
-    : threads_(threads), limits_(limits), handle_(std::move(handle)), stop_event_(::eventfd(0, EFD_CLOEXEC)) {
+Listener::Listener(std::size_t threads, const ClientLimits& limits, Handlers handlers)
+    : threads_(threads), limits_(limits), handlers_(std::move(handlers)), stop_event_(::eventfd(0, EFD_CLOEXEC)) {
   // The library asks for its queue when it is about to accept connections.
   new_task_queue = [this] {
     serving_.count_down();
@@ -85,13 +85,15 @@ Listener::~Listener() {
 }
 
 // The library matches routes with regular expressions, whose recursion a long path could exhaust, so `prepare` gives
-// every request the same path and `handle_` looks at the target itself.
+// every request the same path and `handle` looks at the target itself.
 void Listener::install_handlers() {
   const auto without_content = [this](const httplib::Request& request, httplib::Response& response) {
-    handle_(request, response, nullptr);
+    handlers_.handle(request, response, nullptr);
   };
   const auto with_content = [this](const httplib::Request& request, httplib::Response& response,
-                                   const httplib::ContentReader& reader) { handle_(request, response, &reader); };
+                                   const httplib::ContentReader& reader) {
+    handlers_.handle(request, response, &reader);
+  };
   Get("/", without_content);
   Options("/", without_content);
   Post("/", with_content);
@@ -103,6 +105,10 @@ void Listener::install_handlers() {
     if (has_route) return HandlerResponse::Unhandled;
     without_content(request, response);
     return HandlerResponse::Handled;
+  });
+  set_expect_100_continue_handler([this](const httplib::Request& request, httplib::Response& response) {
+    handlers_.refuse_early(request, response);
+    return response.status < 0 ? 100 : response.status;
   });
   // Called for every answer from 400 up; those without content are the library's own.
   const HandlerWithResponse explain = [](const httplib::Request&, httplib::Response& response) {

@@ -26,7 +26,15 @@ class Listener final : public httplib::Server {
  public:
   using Handle = std::function<void(const httplib::Request&, httplib::Response&, const httplib::ContentReader*)>;
 
-  Listener(std::size_t threads, const ClientLimits& limits, Handle handle);
+  /// Decides about a client that asks for leave to send its content ("Expect: 100-continue"): gives an answer, or
+  /// leaves `response.status` as it is.
+  using Refuse = std::function<void(const httplib::Request&, httplib::Response&)>;
+
+  struct Handlers {
+    Handle handle;
+    Refuse refuse_early;
+  };
+  Listener(std::size_t threads, const ClientLimits& limits, Handlers handlers);
   ~Listener() override;
 
   /// @returns the bound port; nothing when the address cannot be bound. `port` 0 is any free one.
@@ -52,7 +60,7 @@ class Listener final : public httplib::Server {
 
   const std::size_t threads_;
   const ClientLimits limits_;
-  const Handle handle_;
+  const Handlers handlers_;
   const int stop_event_;
   std::atomic<bool> stopping_ = false;
   std::latch serving_{1};

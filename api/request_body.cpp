@@ -5,13 +5,10 @@
 #include "api/problem.hpp"
 
 namespace raywatch {
-namespace {
 
 TooLarge too_large(std::uint64_t max_bytes) {
   return TooLarge("The content is larger than " + std::to_string(max_bytes) + " bytes, the most that is taken here.");
 }
-
-}  // namespace
 
 void RequestBody::read(std::uint64_t max_bytes, const std::function<void(std::span<const char>)>& take) {
   if (!framing_.present) return;

@@ -8,7 +8,12 @@
 #include <span>
 #include <string>
 
+#include "core/error.hpp"
+
 namespace raywatch {
+
+/// The refusal of content with more than `max_bytes`.
+TooLarge too_large(std::uint64_t max_bytes);
 
 /// The content of a request, which is read once and never held as a whole unless it is small.
 class RequestBody {

@@ -1,0 +1,225 @@
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <limits>
+#include <sstream>
+
+#include "api/sha256.hpp"
+#include "tests/api/api_fixture.hpp"
+
+namespace raywatch::testing {
+namespace {
+
+using nlohmann::json;
+
+const std::string kQuery = "sensor=gate&captured_at=2026-03-01T08:00:00Z";
+
+std::string wall_pcd() { return pcd_of(wall_points({}), wall_pose()); }
+
+/// Checks that a refused upload left nothing behind and that the daemon still serves.
+void check_untouched(ApiFixture& api, std::size_t scans) {
+  CHECK_EQ(api.get("/api/v1/scans").json()["items"].size(), scans);
+  CHECK_EQ(api.spooled_files(), 0);
+  CHECK_EQ(api.get("/readyz").status, 200);
+}
+
+TEST_CASE("an uploaded scan is stored as it came") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const std::string bytes = wall_pcd();
+  const Reply reply = api.upload_bytes(bytes, kQuery);
+  REQUIRE_EQ(reply.status, 201);
+  const json scan = reply.json();
+  CHECK_EQ(reply.header("Location"), "/api/v1/scans/" + std::to_string(scan["id"].get<int>()));
+  CHECK_EQ(scan["site"], "yard");
+  CHECK_EQ(scan["sensor"], "gate");
+  CHECK_EQ(scan["captured_at"], "2026-03-01T08:00:00Z");
+  CHECK_EQ(scan["received_at"], "2026-03-02T08:00:00Z");
+  CHECK_EQ(scan["points"], kWallPoints);
+  CHECK_EQ(scan["sha256"], sha256_hex(bytes));
+  CHECK_EQ(scan["pose"]["position_m"], json({100.0, 200.0, 1.5}));
+  CHECK_EQ(scan["pose"]["orientation_xyzw"], json({0.0, 0.0, 1.0, 0.0}));
+  CHECK_EQ(scan["registration"]["state"], "none");
+  CHECK_EQ(scan["pinned"], false);
+  CHECK_EQ(api.spooled_files(), 0);
+}
+
+TEST_CASE("with Prefer: wait the answer comes after the comparison and says so") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const Reply reply = api.upload_bytes(wall_pcd(), kQuery, {{"Prefer", "respond-async, wait=50"}});
+  REQUIRE_EQ(reply.status, 201);
+  CHECK_EQ(reply.header("Preference-Applied"), "wait=50");
+  const json scan = reply.json();
+  CHECK_EQ(scan["state"], "compared");
+  REQUIRE_EQ(scan["comparisons"].size(), 1);
+  CHECK_EQ(scan["comparisons"][0]["id"], scan["comparison"]);
+  CHECK_EQ(scan["comparisons"][0]["reference"], "previous");
+}
+
+TEST_CASE("a wait is bounded, and one that is not understood is ignored") {
+  DaemonConfig config;
+  config.http.max_wait_s = 20;
+  ApiFixture api(config);
+  api.make_site_and_sensor();
+  CHECK_EQ(api.upload_bytes(wall_pcd(), kQuery, {{"Prefer", "wait=9999"}}).header("Preference-Applied"), "wait=20");
+  CHECK_EQ(api.upload_bytes(wall_pcd(), kQuery, {{"Prefer", "wait=soon"}}).header("Preference-Applied"), "");
+  CHECK_EQ(api.upload_bytes(wall_pcd(), kQuery).header("Preference-Applied"), "");
+}
+
+TEST_CASE("the same bytes again are answered with 200 and stored once") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const json first = api.upload_bytes(wall_pcd(), kQuery).json();
+  const Reply again = api.upload_bytes(wall_pcd(), kQuery);
+  CHECK_EQ(again.status, 200);
+  CHECK_EQ(again.json()["id"], first["id"]);
+  check_untouched(api, 1);
+}
+
+TEST_CASE("other bytes for the same sensor and time are a conflict") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  api.upload_bytes(wall_pcd(), kQuery);
+  const Reply reply = api.upload_bytes(pcd_of(wall_points({.box = true}), wall_pose()), kQuery);
+  CHECK_EQ(reply.status, 409);
+  CHECK_EQ(reply.problem(), "conflict");
+  check_untouched(api, 1);
+}
+
+TEST_CASE("a PTX file with several scans is answered with all of them") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  std::ostringstream ptx;
+  for (int scan = 0; scan < 2; ++scan) {
+    const int x_m = 5 + scan;
+    ptx << "2\n2\n" << x_m << " 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n" << x_m << " 0 0 1\n";
+    for (int point = 0; point < 4; ++point) ptx << 3 + point << " 1 0.5 0.5\n";
+  }
+  const Reply reply = api.upload_bytes(ptx.str(), kQuery);
+  REQUIRE_EQ(reply.status, 201);
+  REQUIRE_EQ(reply.json()["items"].size(), 2);
+  const json first = reply.json()["items"][0];
+  CHECK_EQ(first["pose"]["position_m"], json({5.0, 0.0, 0.0}));
+  CHECK_EQ(first["sha256"], sha256_hex(ptx.str()) + "#1");
+  CHECK_EQ(api.upload_bytes(ptx.str(), kQuery).status, 200);
+}
+
+TEST_CASE("the query wins over the file") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const Reply reply = api.upload_bytes(wall_pcd(), kQuery + "&pose=1,2,3,0,0,0,1");
+  REQUIRE_EQ(reply.status, 201);
+  CHECK_EQ(reply.json()["pose"]["position_m"], json({1.0, 2.0, 3.0}));
+}
+
+TEST_CASE("the sensor's fixed pose serves when neither the query nor the file says anything") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  api.patch("/api/v1/sensors/gate", {{"pose", {{"position_m", {7, 8, 9}}, {"orientation_xyzw", {0, 0, 0, 1}}}}});
+  const Reply reply = api.upload_bytes("1 2 3\n4 5 6\n7 8 9.5\n", kQuery + "&format=xyz");
+  REQUIRE_EQ(reply.status, 201);
+  CHECK_EQ(reply.json()["pose"]["position_m"], json({7.0, 8.0, 9.0}));
+}
+
+TEST_CASE("a capture time may have any offset") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const Reply reply = api.upload_bytes(wall_pcd(), "sensor=gate&captured_at=2026-03-01T10:00:00.25%2B01:00");
+  REQUIRE_EQ(reply.status, 201);
+  CHECK_EQ(reply.json()["captured_at"], "2026-03-01T09:00:00.25Z");
+}
+
+TEST_CASE("uploads that are not acceptable are refused by their reason and leave nothing behind") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  PointCloud all_nan;
+  for (int i = 0; i < 10; ++i) all_nan.push_back(nan, nan, nan);
+  const std::string pcd = wall_pcd();
+  std::string promising = pcd;
+  promising.replace(promising.find("POINTS 2501"), 11, "POINTS 1000000000000");
+  struct Case {
+    const char* what;
+    std::string bytes, query;
+    int status;
+    const char* problem;
+  };
+  const std::vector<Case> cases = {
+      {"unknown format", "this is no scan at all", kQuery, 415, "unsupported-format"},
+      {"truncated", pcd.substr(0, pcd.size() / 2), kQuery, 422, "invalid-input"},
+      {"promises more points than follow", promising, kQuery, 422, "invalid-input"},
+      {"no bytes", "", kQuery, 422, "invalid-input"},
+      {"no points", pcd_of(PointCloud{}, wall_pose()), kQuery, 422, "invalid-input"},
+      {"all points NaN", pcd_of(all_nan, wall_pose()), kQuery, 422, "invalid-input"},
+      {"world frame without sensor position", "1 2 3\n4 5 6\n", kQuery + "&format=xyz&frame=world", 422,
+       "invalid-input"},
+      {"no pose anywhere", "1 2 3\n4 5 6\n", kQuery + "&format=xyz", 422, "invalid-input"},
+      {"no time anywhere", pcd, "sensor=gate", 422, "invalid-input"},
+      {"non-unit quaternion", pcd, kQuery + "&pose=1,2,3,0,0,0,2", 422, "invalid-input"},
+      {"pose with six numbers", pcd, kQuery + "&pose=1,2,3,0,0,0", 422, "invalid-input"},
+      {"time in the future", pcd, "sensor=gate&captured_at=2026-03-02T08:02:00Z", 422, "invalid-input"},
+      {"unknown sensor", pcd, "sensor=nobody&captured_at=2026-03-01T08:00:00Z", 404, "not-found"},
+      {"time that is none", pcd, "sensor=gate&captured_at=yesterday", 422, "invalid-input"},
+      {"unknown frame", pcd, kQuery + "&frame=moon", 422, "invalid-input"},
+      {"format that is none", pcd, kQuery + "&format=jpeg", 422, "invalid-input"},
+      {"broken escape", pcd, kQuery + "&frame=%zz", 422, "invalid-input"},
+      {"parameter twice", pcd, kQuery + "&sensor=gate", 422, "invalid-input"},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.what);
+    const Reply reply = api.upload_bytes(c.bytes, c.query);
+    CHECK_EQ(reply.status, c.status);
+    CHECK_EQ(reply.problem(), c.problem);
+    CHECK_NE(reply.json()["detail"], "");
+    check_untouched(api, 0);
+  }
+}
+
+TEST_CASE("what is wrong with the query of an upload is said for all of it at once") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const Reply reply = api.upload_bytes(wall_pcd(), "captured_at=now&pose=1&frame=moon&format=jpeg&sensr=gate");
+  REQUIRE_EQ(reply.status, 422);
+  for (const char* field : {"sensor", "captured_at", "pose", "frame", "format"}) {
+    CAPTURE(field);
+    CHECK_NE(reply.complaint_about(field), "");
+  }
+  CHECK_EQ(reply.complaint_about("sensr"), "unknown parameter; did you mean 'sensor'?");
+}
+
+TEST_CASE("a form that holds a file is not taken for the file, but any other type is") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const Reply form = api.upload_bytes("--x\r\n\r\n", kQuery, {{"Content-Type", "multipart/form-data; boundary=x"}});
+  CHECK_EQ(form.status, 415);
+  CHECK_EQ(form.problem(), "unsupported-media-type");
+  const Reply curl = api.upload_bytes(wall_pcd(), kQuery, {{"Content-Type", "application/x-www-form-urlencoded"}});
+  CHECK_EQ(curl.status, 201);
+}
+
+TEST_CASE("a body over the limit is refused by its announced length") {
+  DaemonConfig config;
+  config.http.max_body_bytes = 10'000;
+  ApiFixture api(config);
+  api.make_site_and_sensor();
+  const Reply reply = api.upload_bytes(std::string(10'001, 'x'), kQuery);
+  CHECK_EQ(reply.status, 413);
+  CHECK_EQ(reply.problem(), "too-large");
+  check_untouched(api, 0);
+}
+
+TEST_CASE("when the queue is full an upload is told when to come again") {
+  DaemonConfig config;
+  config.queue_limit = 0;
+  ApiFixture api(config);
+  api.make_site_and_sensor();
+  const Reply reply = api.upload_bytes(wall_pcd(), kQuery);
+  CHECK_EQ(reply.status, 503);
+  CHECK_EQ(reply.problem(), "overloaded");
+  CHECK_GT(std::stoi(reply.header("Retry-After")), 0);
+  check_untouched(api, 0);
+}
+
+}  // namespace
+}  // namespace raywatch::testing
