@@ -27,7 +27,7 @@ namespace {
 /// How long running comparisons are waited for at a stop.
 constexpr std::chrono::seconds kStopPatience{3};
 
-unsigned or_one_a_core(unsigned count) { return count > 0 ? count : std::max(1u, std::thread::hardware_concurrency()); }
+unsigned cores() { return std::max(1u, std::thread::hardware_concurrency()); }
 
 HttpConfig with_spool(HttpConfig http, const std::filesystem::path& data_dir) {
   if (http.spool_dir.empty()) http.spool_dir = data_dir / "spool";
@@ -60,7 +60,8 @@ struct Daemon::Impl {
         runner(store, cache, progress, {.previous_limit = config.previous_limit, .choice = config.choice}, now),
         requeued(recover(store)),
         workers(store, runner, signal,
-                {.workers = or_one_a_core(config.workers), .compare_threads = or_one_a_core(config.compare_threads)},
+                {.workers = config.workers > 0 ? config.workers : cores(),
+                 .compare_threads = config.compare_threads > 0 ? std::min(config.compare_threads, cores()) : cores()},
                 now),
         http(with_spool(config.http, config.data_dir), {store, commands(), [this] { return status(); }, now}) {
     if (requeued > 0) spdlog::info("{} comparisons were interrupted and start again", requeued);

@@ -16,7 +16,7 @@ struct DaemonConfig {
   std::filesystem::path data_dir = "raywatch-data";
   HttpConfig http;
   unsigned workers = 0;          ///< sites compared at once; 0: one a core
-  unsigned compare_threads = 0;  ///< threads of one comparison; 0: one a core
+  unsigned compare_threads = 0;  ///< threads of one comparison; 0: one a core, which is also the most
   std::uint64_t index_cache_bytes = std::uint64_t{1} << 30;
   std::uint64_t queue_limit = 1000;  ///< unfinished jobs above which uploads get 503
   std::uint64_t min_free_disk_bytes = 256u << 20;

@@ -115,7 +115,7 @@ class Slot {
 }  // namespace
 
 void refuse_when_full(const Snapshot& snapshot, std::uint64_t limit) {
-  constexpr std::chrono::seconds kRetryAfter{2};
+  constexpr std::chrono::seconds kRetryAfter{1};
   const std::uint64_t unfinished = unfinished_jobs(snapshot);
   if (unfinished < limit) return;
   throw Overloaded(std::to_string(unfinished) + " comparisons are waiting", kRetryAfter);

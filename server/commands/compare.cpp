@@ -1,3 +1,4 @@
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <CLI/CLI.hpp>
@@ -77,7 +78,11 @@ int compare_and_report(const Options& options) {
 }
 
 int run_compare(const Options& options) {
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  if (options.threads == 0) return compare_and_report(options);
+  // So many, even if there are fewer cores.
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(options.threads));
+  tbb::task_arena arena(options.threads);
   return arena.execute([&] { return compare_and_report(options); });
 }
 

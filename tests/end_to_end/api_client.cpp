@@ -49,9 +49,12 @@ nlohmann::json ApiClient::wait_for_all_scans() {
     const ApiReply reply = get("/api/v1/scans?limit=1000");
     REQUIRE(reply.status == 200);
     nlohmann::json scans = reply.json()["items"];
-    std::ranges::sort(scans, {}, [](const nlohmann::json& scan) { return scan["id"].get<std::int64_t>(); });
-    const bool all_ended = std::ranges::all_of(
-        scans, [](const nlohmann::json& scan) { return scan["state"] == "compared" || scan["state"] == "failed"; });
+    std::sort(scans.begin(), scans.end(), [](const nlohmann::json& a, const nlohmann::json& b) {
+      return a["id"].get<std::int64_t>() < b["id"].get<std::int64_t>();
+    });
+    const bool all_ended = std::all_of(scans.begin(), scans.end(), [](const nlohmann::json& scan) {
+      return scan["state"] == "compared" || scan["state"] == "failed";
+    });
     if (all_ended) return scans;
     REQUIRE(std::chrono::steady_clock::now() < deadline);
     std::this_thread::yield();
