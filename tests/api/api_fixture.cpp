@@ -26,7 +26,6 @@ DaemonConfig completed(DaemonConfig config, const std::filesystem::path& folder)
   config.http.threads = 8;
   config.workers = 1;
   config.compare_threads = 1;
-  config.min_free_disk_bytes = 1 << 20;
   return config;
 }
 

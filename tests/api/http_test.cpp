@@ -296,6 +296,21 @@ TEST_CASE("a client that sends a little now and then is dropped, too") {
   CHECK_EQ(api.spooled_files(), 0);
 }
 
+TEST_CASE("a client that takes nothing of its answers is dropped") {
+  ApiFixture api(impatient());
+  api.make_site_and_sensor();
+  const std::string target = "/api/v1/scans/" + api.upload(0)["id"].dump() + "/points?format=csv";
+  const RawClient client(api.port());
+  // More than the buffers of both sides hold: 1000 answers of about 100 kB.
+  std::string requests;
+  for (int i = 0; i < 1000; ++i) requests += "GET " + target + " HTTP/1.1\r\nHost: localhost\r\n\r\n";
+  bool open = client.send(requests);
+  while (open) {
+    open = client.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  }
+  CHECK_EQ(api.get("/healthz").status, 200);
+}
+
 TEST_CASE("a request that is no HTTP is a 400 problem or the end of the connection") {
   ApiFixture api;
   CHECK_EQ(status_of(raw_answer(api, "nonsense\r\n\r\n")), 400);
@@ -387,6 +402,16 @@ TEST_CASE("one of several uploads of the same bytes at the same time is stored")
   for (std::thread& client : clients) client.join();
   CHECK_EQ(stored, 1);
   CHECK_EQ(repeated, 3);
+}
+
+TEST_CASE("a daemon stops at once though idle clients stay connected") {
+  auto api = std::make_unique<ApiFixture>();
+  const RawClient idle(api->port()), silent(api->port());
+  idle.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  CHECK_EQ(status_of(idle.receive_until("}")), 200);
+  api.reset();
+  CHECK_EQ(idle.receive_all(), "");
+  CHECK_EQ(silent.receive_all(), "");
 }
 
 TEST_CASE("a running store is copied on request, into an empty directory only") {

@@ -209,6 +209,18 @@ TEST_CASE("a body over the limit is refused by its announced length") {
   check_untouched(api, 0);
 }
 
+TEST_CASE("when the disk is full the daemon says that it is not ready, and what is written is refused") {
+  DaemonConfig config;
+  config.min_free_disk_bytes = std::uint64_t{1} << 62;
+  ApiFixture api(config);
+  CHECK_EQ(api.get("/readyz").status, 503);
+  CHECK_EQ(api.get("/readyz").problem(), "not-ready");
+  const Reply reply = api.post("/api/v1/sites", {{"name", "yard"}});
+  CHECK_EQ(reply.status, 507);
+  CHECK_EQ(reply.problem(), "disk-full");
+  CHECK_EQ(api.get("/api/v1/sites").json()["items"], json::array());
+}
+
 TEST_CASE("when the queue is full an upload is told when to come again") {
   DaemonConfig config;
   config.queue_limit = 0;
