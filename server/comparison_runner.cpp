@@ -191,7 +191,7 @@ ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const 
 }
 
 void ComparisonRunner::commit(const Job& job, const Subject& subject, ComparisonResult result,
-                              ComparisonPoints points) {
+                              const ComparisonPoints& points) {
   UnownedPayloads written(store_.payloads());
   result.payload = written.add(store_.payloads().put_comparison(subject.site.id, subject.scan.captured_at, points));
   const Time now = now_();

@@ -38,7 +38,7 @@ class ComparisonRunner {
   Subject read_subject(const Job& job) const;
   Loaded load(const ScanRecord& scan, const Subject& subject, tbb::task_arena& arena);
   Choice choose(const Subject& subject, const Loaded& scan) const;
-  void commit(const Job& job, const Subject& subject, ComparisonResult result, ComparisonPoints points);
+  void commit(const Job& job, const Subject& subject, ComparisonResult result, const ComparisonPoints& points);
 
   Store& store_;
   IndexCache& cache_;
