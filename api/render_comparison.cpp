@@ -22,6 +22,7 @@ Json render_parameters(const CompareParameters& parameters) {
           {"angle_deg", parameters.angle_rad ? Json(deg_of_radians(*parameters.angle_rad)) : Json(nullptr)},
           {"range_m", parameters.range_m},
           {"clustering", parameters.clustering},
+          {"support_distance_m", parameters.support_distance_m},
           {"cluster_distance_m", parameters.cluster_distance_m},
           {"cluster_min_points", parameters.cluster_min_points},
           {"min_range_m", parameters.min_range_m},

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/cone.hpp"
 #include "core/error.hpp"
 #include "core/prior_index_impl.hpp"
 
@@ -13,15 +14,6 @@ namespace raywatch {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-/// Covers the errors of the directions of the question and of the returns, and of the arithmetic on them: a cell that
-/// is taken for inside (outside) of the cone by this margin is so.
-constexpr double kAngleMargin_rad = 8.0 * kDirectionError_rad;
-
-double haversine(double angle_rad) {
-  const double half = std::sin(0.5 * angle_rad);
-  return half * half;
-}
 
 /// A point of the question in the prior's frame, with everything that the tests on a return need. The tests are in
 /// double precision and use no root and no angle: they compare squares, so their only error is that of the last bits.
@@ -93,39 +85,29 @@ class Inquiry {
  public:
   Inquiry(const PriorIndex::Impl& prior, const Thresholds& thresholds)
       : prior_(prior),
-        grid_(prior.grid),
         thresholds_(thresholds),
-        outer_rad_(thresholds.angle_rad + kAngleMargin_rad),
-        inner_rad_(thresholds.angle_rad - kAngleMargin_rad),
-        outer_haversine_(haversine(outer_rad_)),
-        inner_haversine_(inner_rad_ > 0.0 ? haversine(inner_rad_) : -1.0),
-        own_cell_is_inside_(std::numbers::sqrt2 * grid_.cell_rad() <= inner_rad_) {}
+        cone_(thresholds.angle_rad),
+        own_cell_is_inside_(cone_.encloses_cell_of_axis(prior.grid)) {}
 
   Answer operator()(const Eigen::Vector3d& point_m) const {
     const Question question(point_m, thresholds_);
     if (!(question.range_m() > 0.0) || prior_.source.empty()) return Answer::unseen;
     const Direction direction = direction_of(point_m.x(), point_m.y(), point_m.z());
     if (own_cell_is_inside_ && own_cell_supports(question, direction)) return Answer::supported;
-
     Evidence evidence;
-    const double elevation = direction.elevation_rad;
-    const double low = grid_.row_coordinate(elevation - outer_rad_),
-                 high = grid_.row_coordinate(elevation + outer_rad_);
-    if (high < 0.0 || low >= static_cast<double>(grid_.rows())) return Answer::unseen;
-    const auto first_row = static_cast<std::size_t>(std::max(low, 0.0));
-    const auto last_row = static_cast<std::size_t>(std::min(high, static_cast<double>(grid_.rows() - 1)));
-    for (std::size_t row = first_row; row <= last_row && !evidence.supported; ++row) {
-      look_at_row(question, direction, row, evidence);
-    }
+    cone_.for_each_cell(prior_.grid, direction, [&](std::uint32_t cell, bool inside) {
+      look_at_cell(question, cell, inside, evidence);
+      return !evidence.supported;
+    });
     return evidence.answer();
   }
 
  private:
   /// Most points of a world at rest are decided here, by the bounds of the cell that they lie in.
   bool own_cell_supports(const Question& question, const Direction& direction) const {
-    if (grid_.row_coordinate(direction.elevation_rad) < 0.0) return false;
-    if (grid_.row_coordinate(direction.elevation_rad) >= static_cast<double>(grid_.rows())) return false;
-    return bound_supports(question, prior_.range_m[grid_.cell_of(direction)]);
+    const double row = prior_.grid.row_coordinate(direction.elevation_rad);
+    if (row < 0.0 || row >= static_cast<double>(prior_.grid.rows())) return false;
+    return bound_supports(question, prior_.range_m[prior_.grid.cell_of(direction)]);
   }
 
   /// A bound is the range of a return, but for its rounding outwards.
@@ -134,56 +116,6 @@ class Inquiry {
     const double within_m = thresholds_.range_m - rounding_m;
     return std::abs(cell.least_m - question.range_m()) < within_m ||
            std::abs(cell.greatest_m - question.range_m()) < within_m;
-  }
-
-  /// The half-widths in azimuth that contain, and that are contained in, the part of the cone in a row. From
-  /// hav(angle) = hav(elevation difference) + cos(elevation) cos(elevation') hav(azimuth difference).
-  struct Widths {
-    double outer_rad = kPi;
-    double inner_rad = -1.0;
-  };
-  Widths widths(double elevation, std::size_t row) const {
-    const double bottom = grid_.row_bottom_rad(row), top = bottom + grid_.cell_rad();
-    const double nearest = std::max({0.0, bottom - elevation, elevation - top});
-    const double farthest = std::max(std::abs(elevation - bottom), std::abs(elevation - top));
-    const double cosine = std::max(0.0, std::cos(elevation));
-    Widths result;
-    const double outer = outer_haversine_ - haversine(nearest);
-    const double outer_scale = cosine * grid_.least_cosine(row);
-    if (outer < 0.0) {
-      result.outer_rad = -1.0;
-    } else if (outer < outer_scale) {
-      result.outer_rad = 2.0 * std::asin(std::sqrt(outer / outer_scale)) + kAngleMargin_rad;
-    }
-    const double inner = inner_haversine_ - haversine(farthest);
-    const double inner_scale = cosine * grid_.greatest_cosine(row);
-    if (inner >= 0.0) {
-      result.inner_rad =
-          inner < inner_scale ? 2.0 * std::asin(std::sqrt(inner / inner_scale)) - kAngleMargin_rad : 2.0 * kPi;
-    }
-    return result;
-  }
-
-  void look_at_row(const Question& question, const Direction& direction, std::size_t row, Evidence& evidence) const {
-    const Widths half = widths(direction.elevation_rad, row);
-    if (half.outer_rad < 0.0) return;
-    const auto columns = static_cast<std::int64_t>(grid_.columns(row));
-    const double per_rad = static_cast<double>(columns) / (2.0 * kPi);
-    const double center = grid_.column_coordinate(row, direction.azimuth_rad);
-    auto first = static_cast<std::int64_t>(std::floor(center - half.outer_rad * per_rad));
-    auto last = static_cast<std::int64_t>(std::floor(center + half.outer_rad * per_rad));
-    if (last - first >= columns) {
-      first = 0;
-      last = columns - 1;
-    }
-    const double inner_low = center - half.inner_rad * per_rad, inner_high = center + half.inner_rad * per_rad;
-    for (std::int64_t column = first; column <= last && !evidence.supported; ++column) {
-      const bool inside = half.inner_rad > 0.0 && static_cast<double>(column) >= inner_low &&
-                          static_cast<double>(column + 1) <= inner_high;
-      const std::int64_t wrapped = column < 0 ? column + columns : column >= columns ? column - columns : column;
-      look_at_cell(question, grid_.first_cell(row) + static_cast<std::uint32_t>(wrapped),
-                   inside || half.inner_rad >= kPi, evidence);
-    }
   }
 
   /// Skips the cell's returns when its bounds already say all that they could add.
@@ -227,12 +159,41 @@ class Inquiry {
   }
 
   const PriorIndex::Impl& prior_;
-  const DirectionGrid& grid_;
   Thresholds thresholds_;
-  double outer_rad_, inner_rad_;
-  double outer_haversine_, inner_haversine_;
+  Cone cone_;
   bool own_cell_is_inside_;
 };
+
+/// Looks into the cone that a ball around the point fills, seen from the prior. Nothing is near a sensor itself.
+bool has_near_return(const PriorIndex::Impl& prior, const Eigen::Vector3d& point_m, double distance_m) {
+  const double range_m = point_m.norm();
+  if (!(range_m > distance_m)) return false;
+  bool found = false;
+  const auto look_at_cell = [&](std::uint32_t cell, bool) {
+    const RangeInterval& bounds = prior.range_m[cell];
+    if (bounds.least_m > range_m + distance_m || bounds.greatest_m < range_m - distance_m) return true;
+    for (std::uint32_t i = prior.first[cell]; i < prior.first[cell + 1] && !found; ++i) {
+      const Eigen::Vector3d p(prior.x_m[i], prior.y_m[i], prior.z_m[i]);
+      found = (p - point_m).squaredNorm() < distance_m * distance_m;
+    }
+    return !found;
+  };
+  const Direction direction = direction_of(point_m.x(), point_m.y(), point_m.z());
+  Cone(std::asin(distance_m / range_m)).for_each_cell(prior.grid, direction, look_at_cell);
+  return found;
+}
+
+template <class Visit>
+void for_each_point(const PointCloud& points, const Pose& prior_from_points, Visit visit) {
+  const Eigen::Matrix3d rotation = prior_from_points.orientation.toRotationMatrix();
+  const Eigen::Vector3d translation_m = prior_from_points.position_m;
+  constexpr std::size_t kGrain = 4096;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kGrain), [&](const auto& block) {
+    for (std::size_t i = block.begin(); i < block.end(); ++i) {
+      visit(i, rotation * Eigen::Vector3d(points.x_m[i], points.y_m[i], points.z_m[i]) + translation_m);
+    }
+  });
+}
 
 void check(const Thresholds& thresholds) {
   if (!(thresholds.angle_rad > 0.0 && thresholds.angle_rad <= kPi / 2)) {
@@ -250,14 +211,16 @@ void ask(const PriorIndex& prior, const PointCloud& points, std::span<const std:
          const Pose& prior_from_points, const Thresholds& thresholds, std::span<Answer> answers) {
   check(thresholds);
   const Inquiry inquiry(prior.impl(), thresholds);
-  const Eigen::Matrix3d rotation = prior_from_points.orientation.toRotationMatrix();
-  const Eigen::Vector3d translation_m = prior_from_points.position_m;
-  constexpr std::size_t kGrain = 4096;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kGrain), [&](const auto& block) {
-    for (std::size_t i = block.begin(); i < block.end(); ++i) {
-      const Eigen::Vector3d point_m(points.x_m[i], points.y_m[i], points.z_m[i]);
-      answers[i] = valid[i] ? inquiry(rotation * point_m + translation_m) : Answer::unseen;
-    }
+  for_each_point(points, prior_from_points, [&](std::size_t i, const Eigen::Vector3d& point_m) {
+    answers[i] = valid[i] ? inquiry(point_m) : Answer::unseen;
+  });
+}
+
+void find_near_returns(const PriorIndex& prior, const PointCloud& points, const Pose& prior_from_points,
+                       double distance_m, std::span<std::uint8_t> near) {
+  const PriorIndex::Impl& impl = prior.impl();
+  for_each_point(points, prior_from_points, [&](std::size_t i, const Eigen::Vector3d& point_m) {
+    near[i] = has_near_return(impl, point_m, distance_m);
   });
 }
 

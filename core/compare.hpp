@@ -51,6 +51,10 @@ struct CompareParameters {
   /// resolution of each prior.
   std::optional<double> angle_rad;
   double range_m = 0.1;  ///< T_r
+  /// In a consensus, a prior that has a return nearer than this to a point supports it, whatever the angles say: errors
+  /// of the pose and grazing incidence move a surface along the ray by more than T_r, but hardly off itself. 0: not
+  /// asked.
+  double support_distance_m = 0.0;
   bool clustering = true;
   double cluster_distance_m = 0.10;     ///< d: points nearer than this belong together
   std::size_t cluster_min_points = 40;  ///< m: clusters of at most this many points are noise

@@ -180,6 +180,7 @@ class Detector {
     warn(detection);
     const std::vector<std::uint8_t> valid = valid_points(scan_);
     detection.answers = ask_priors(scan_.points, valid, scan_.world_from_sensor);
+    ask_for_near_support(detection.answers);
     fold(valid, detection.answers, detection);
     for (std::uint32_t p = 0; p < priors_.size(); ++p) find_changed_points_of(p, detection);
     detection.angle_rad = angles_rad_;
@@ -205,6 +206,44 @@ class Detector {
       ask(priors_[p].index, points, valid, prior_from_points, thresholds_of(p), answers[p]);
     }
     return answers;
+  }
+
+  bool asks_for_near_support() const {
+    return parameters_.grouping == Grouping::consensus && parameters_.support_distance_m > 0.0;
+  }
+
+  /// Of the points that some prior calls free, those that a prior has a return near are supported by it after all.
+  void ask_for_near_support(std::vector<Answers>& answers) const {
+    if (!asks_for_near_support()) return;
+    std::vector<std::uint32_t> free;
+    for (std::uint32_t i = 0; i < scan_.points.size(); ++i) {
+      const bool is_free = std::any_of(answers.begin(), answers.end(),
+                                       [&](const Answers& of_prior) { return of_prior[i] == Answer::free; });
+      if (is_free) free.push_back(i);
+    }
+    const PointCloud points = points_at(scan_.points, free);
+    std::vector<std::uint8_t> near(points.size());
+    for (std::size_t p = 0; p < priors_.size(); ++p) {
+      find_near_returns(priors_[p].index, points, priors_[p].world_from_sensor.inverse() * scan_.world_from_sensor,
+                        parameters_.support_distance_m, near);
+      for (std::size_t k = 0; k < free.size(); ++k) {
+        if (near[k]) answers[p][free[k]] = Answer::supported;
+      }
+    }
+  }
+
+  /// The same for the points of a prior that the scan calls free: those that are near a return of the scan are not.
+  void drop_near_candidates(const ScanView& prior, std::vector<std::uint32_t>& candidates) const {
+    if (!asks_for_near_support()) return;
+    const PointCloud points = points_at(prior.points, candidates);
+    std::vector<std::uint8_t> near(points.size());
+    find_near_returns(scan_.index, points, scan_.world_from_sensor.inverse() * prior.world_from_sensor,
+                      parameters_.support_distance_m, near);
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      if (!near[k]) candidates[kept++] = candidates[k];
+    }
+    candidates.resize(kept);
   }
 
   PointClass fold_one(std::span<const Answers> answers, std::size_t i, std::vector<PriorOpinion>& opinions) const {
@@ -252,6 +291,7 @@ class Detector {
     for (std::uint32_t i = 0; i < answers.size(); ++i) {
       if (answers[i] == Answer::free) candidates.push_back(i);
     }
+    drop_near_candidates(prior, candidates);
     add_prior_points(p, candidates, detection);
   }
 
@@ -301,6 +341,8 @@ void check(const CompareParameters& parameters, std::size_t priors) {
   const double angle = parameters.angle_rad.value_or(kFallbackAngle_rad);
   require(angle > 0.0 && angle <= std::numbers::pi / 2, "angle_deg", "must be above 0 and at most 90");
   require(std::isfinite(parameters.range_m) && parameters.range_m >= 0.0, "range_m", "must be 0 or more");
+  require(std::isfinite(parameters.support_distance_m) && parameters.support_distance_m >= 0.0, "support_distance_m",
+          "must be 0 or more");
   require(std::isfinite(parameters.cluster_distance_m) && parameters.cluster_distance_m > 0.0, "cluster_distance_m",
           "must be above 0");
   require(parameters.min_range_m >= 0.0, "min_range_m", "must be 0 or more");

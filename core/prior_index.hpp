@@ -56,4 +56,8 @@ class PriorIndex {
 void ask(const PriorIndex& prior, const PointCloud& points, std::span<const std::uint8_t> valid,
          const Pose& prior_from_points, const Thresholds& thresholds, std::span<Answer> answers);
 
+/// For each point whether a return of `prior` lies nearer to it than `distance_m` (> 0), in any direction.
+void find_near_returns(const PriorIndex& prior, const PointCloud& points, const Pose& prior_from_points,
+                       double distance_m, std::span<std::uint8_t> near);
+
 }  // namespace raywatch

@@ -33,16 +33,19 @@ CompareParameters default_parameters(Profile profile, Grouping grouping) {
   if (grouping == Grouping::union_) return parameters;
   switch (profile) {
     case Profile::indoor:
+      parameters.support_distance_m = 0.08;
       parameters.range_m = 0.10;
       parameters.cluster_distance_m = 0.10;
       parameters.cluster_min_points = 20;
       break;
     case Profile::outdoor:
+      parameters.support_distance_m = 0.15;
       parameters.range_m = 0.25;
       parameters.cluster_distance_m = 0.40;
       parameters.cluster_min_points = 12;
       break;
     case Profile::survey:
+      parameters.support_distance_m = 0.20;
       parameters.range_m = 0.25;
       parameters.cluster_distance_m = 1.0;
       parameters.cluster_min_points = 40;
