@@ -126,7 +126,7 @@ Timeline carpark_timeline(const FamilyOptions& options) {
 
   const std::uint32_t scans = options.scans.value_or(4 * kPoses);
   for (std::uint32_t i = 0; i < scans; ++i) {
-    const std::uint32_t epoch = i / kPoses;
+    const auto epoch = static_cast<std::uint32_t>(i / kPoses);
     if (epoch > 0 && i % kPoses == 0) next_event(cars, views, epoch);
     const Duration since_start =
         std::chrono::minutes(30) * epoch + options.interval.value_or(std::chrono::minutes(1)) * (i % kPoses);

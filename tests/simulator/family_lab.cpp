@@ -140,7 +140,7 @@ Timeline lab_timeline(const FamilyOptions& options) {
 
   const std::uint32_t scans = options.scans.value_or(kPoses * kPlaces);
   for (std::uint32_t i = 0; i < scans; ++i) {
-    const std::uint32_t epoch = i / kPoses;
+    const auto epoch = static_cast<std::uint32_t>(i / kPoses);
     const Duration since_start =
         std::chrono::minutes(10) * epoch + options.interval.value_or(std::chrono::minutes(1)) * (i % kPoses);
     append_scan(timeline, options,
