@@ -1,6 +1,3 @@
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +5,7 @@
 
 #include "core/cone.hpp"
 #include "core/error.hpp"
+#include "core/for_each_point.hpp"
 #include "core/prior_index_impl.hpp"
 
 namespace raywatch {
@@ -181,18 +179,6 @@ bool has_near_return(const PriorIndex::Impl& prior, const Eigen::Vector3d& point
   const Direction direction = direction_of(point_m.x(), point_m.y(), point_m.z());
   Cone(std::asin(distance_m / range_m)).for_each_cell(prior.grid, direction, look_at_cell);
   return found;
-}
-
-template <class Visit>
-void for_each_point(const PointCloud& points, const Pose& prior_from_points, Visit visit) {
-  const Eigen::Matrix3d rotation = prior_from_points.orientation.toRotationMatrix();
-  const Eigen::Vector3d translation_m = prior_from_points.position_m;
-  constexpr std::size_t kGrain = 4096;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kGrain), [&](const auto& block) {
-    for (std::size_t i = block.begin(); i < block.end(); ++i) {
-      visit(i, rotation * Eigen::Vector3d(points.x_m[i], points.y_m[i], points.z_m[i]) + translation_m);
-    }
-  });
 }
 
 void check(const Thresholds& thresholds) {

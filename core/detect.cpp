@@ -180,6 +180,7 @@ class Detector {
     warn(detection);
     const std::vector<std::uint8_t> valid = valid_points(scan_);
     detection.answers = ask_priors(scan_.points, valid, scan_.world_from_sensor);
+    judge_by_surfaces(detection.answers);
     ask_for_near_support(detection.answers);
     fold(valid, detection.answers, detection);
     for (std::uint32_t p = 0; p < priors_.size(); ++p) find_changed_points_of(p, detection);
@@ -210,6 +211,29 @@ class Detector {
 
   bool asks_for_near_support() const {
     return parameters_.grouping == Grouping::consensus && parameters_.support_distance_m > 0.0;
+  }
+
+  /// Where a prior calls points free or cannot decide, its surface there is looked at more closely.
+  void judge_by_surfaces(std::vector<Answers>& answers) const {
+    if (!asks_for_near_support()) return;
+    for (std::size_t p = 0; p < priors_.size(); ++p) {
+      judge_by_surface_of(priors_[p], thresholds_of(p), scan_, answers[p]);
+    }
+  }
+
+  void judge_by_surface_of(const ScanView& asked, const Thresholds& thresholds, const ScanView& view,
+                           Answers& answers) const {
+    std::vector<std::uint32_t> places;
+    Answers open;
+    for (std::uint32_t i = 0; i < answers.size(); ++i) {
+      if (answers[i] != Answer::free && answers[i] != Answer::ambiguous) continue;
+      places.push_back(i);
+      open.push_back(answers[i]);
+    }
+    judge_by_surface(asked.index, points_at(view.points, places),
+                     asked.world_from_sensor.inverse() * view.world_from_sensor, thresholds,
+                     parameters_.support_distance_m, open);
+    for (std::size_t k = 0; k < places.size(); ++k) answers[places[k]] = open[k];
   }
 
   /// Of the points that some prior calls free, those that a prior has a return near are supported by it after all.
@@ -287,6 +311,7 @@ class Detector {
     const Thresholds thresholds{angle_for(scan_, parameters_), parameters_.range_m};
     ask(scan_.index, prior.points, valid, scan_.world_from_sensor.inverse() * prior.world_from_sensor, thresholds,
         answers);
+    if (asks_for_near_support()) judge_by_surface_of(scan_, thresholds, prior, answers);
     std::vector<std::uint32_t> candidates;
     for (std::uint32_t i = 0; i < answers.size(); ++i) {
       if (answers[i] == Answer::free) candidates.push_back(i);

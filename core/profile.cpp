@@ -39,7 +39,7 @@ CompareParameters default_parameters(Profile profile, Grouping grouping) {
       parameters.cluster_min_points = 20;
       break;
     case Profile::outdoor:
-      parameters.support_distance_m = 0.15;
+      parameters.support_distance_m = 0.20;
       parameters.range_m = 0.25;
       parameters.cluster_distance_m = 0.40;
       parameters.cluster_min_points = 12;
