@@ -12,6 +12,8 @@ class Sha256 {
  public:
   Sha256();
   ~Sha256();
+  Sha256(const Sha256&) = delete;
+  Sha256& operator=(const Sha256&) = delete;
   void add(std::span<const char> bytes);
   std::string hex();  ///< of everything added; once
 

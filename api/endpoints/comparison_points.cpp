@@ -54,7 +54,7 @@ Classes parse_classes(Query& query) {
 
 /// What the points of one scan of the comparison are moved by. Local, or relative to the compared scan's sensor.
 Pose output_from(const StoredComparison& stored, const ScanRecord& scan, Frame frame) {
-  const Pose local_from_scan = local_pose(scan, stored.site);
+  Pose local_from_scan = local_pose(scan, stored.site);
   if (frame == Frame::world) return local_from_scan;
   if (scan.id == stored.scan.id) return {};
   return local_pose(stored.scan, stored.site).inverse() * local_from_scan;

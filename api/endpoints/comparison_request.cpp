@@ -52,7 +52,7 @@ Reference parse_named_reference(JsonObject& body, const std::string& name) {
   if (name == "baseline") {
     body.fail("reference", "the site has no baseline");
   } else if (name != "previous") {
-    body.fail("reference", "must be \"previous\", {\"from\", \"to\"} or {\"scans\": [...]}");
+    body.fail("reference", R"(must be "previous", {"from", "to"} or {"scans": [...]})");
   }
   return PreviousReference{};
 }
@@ -89,7 +89,7 @@ Reference parse_reference(JsonObject& body) {
     return PreviousReference{};
   }
   const bool is_list = reference->any("scans") != nullptr;
-  const Reference parsed = is_list ? parse_scans(*reference) : parse_window(*reference);
+  Reference parsed = is_list ? parse_scans(*reference) : parse_window(*reference);
   reference->finish();
   return parsed;
 }
