@@ -66,7 +66,8 @@ CompareParameters read_parameters(const Json& json) {
   return {.grouping = enum_from_text(json.at("grouping").get<std::string>(), {Grouping::union_, Grouping::consensus}),
           .angle_rad = get(json, "angle_rad"),
           .range_m = json.at("range_m").get<double>(),
-          .support_distance_m = json.at("support_distance_m").get<double>(),
+          // Comparisons that were stored before there was such a distance did not ask for it.
+          .support_distance_m = get(json, "support_distance_m").value_or(0.0),
           .clustering = json.at("clustering").get<bool>(),
           .cluster_distance_m = json.at("cluster_distance_m").get<double>(),
           .cluster_min_points = json.at("cluster_min_points").get<std::size_t>(),

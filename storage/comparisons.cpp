@@ -1,6 +1,8 @@
 #include "storage/comparisons.hpp"
 
+#include <functional>
 #include <limits>
+#include <set>
 
 #include "storage/columns.hpp"
 #include "storage/comparison_rows.hpp"
@@ -95,22 +97,17 @@ void update_scan_state(Transaction& transaction, ScanId scan) {
   Statement rows(database_of(transaction),
                  "SELECT state, failure FROM comparisons INDEXED BY comparisons_by_scan WHERE scan = ? ORDER BY id");
   rows.bind(scan);
-  ScanState state = ScanState::failed;
-  std::string failure;
-  const auto rank = [](ScanState s) {
-    return s == ScanState::failed ? 0 : s == ScanState::queued ? 1 : s == ScanState::compared ? 2 : 3;
-  };
+  std::set<std::string, std::less<>> states;
+  std::string last_failure;
   while (rows.next()) {
-    const auto name = rows.take<std::string>();
-    const auto why = rows.take<std::string>();
-    const ScanState implied = name == to_string(ComparisonState::running)  ? ScanState::comparing
-                              : name == to_string(ComparisonState::done)   ? ScanState::compared
-                              : name == to_string(ComparisonState::queued) ? ScanState::queued
-                                                                           : ScanState::failed;
-    if (implied == ScanState::failed) failure = why;
-    if (rank(implied) > rank(state)) state = implied;
+    states.insert(rows.take<std::string>());
+    if (std::string why = rows.take<std::string>(); !why.empty()) last_failure = std::move(why);
   }
-  set_scan_state(transaction, scan, state, state == ScanState::failed ? failure : std::string());
+  if (states.contains(to_string(ComparisonState::running)))
+    return set_scan_state(transaction, scan, ScanState::comparing);
+  if (states.contains(to_string(ComparisonState::done))) return set_scan_state(transaction, scan, ScanState::compared);
+  if (states.contains(to_string(ComparisonState::queued))) return set_scan_state(transaction, scan, ScanState::queued);
+  set_scan_state(transaction, scan, ScanState::failed, last_failure);
 }
 
 ComparisonRecord insert_comparison(Transaction& transaction, ScanId scan, const Reference& reference,
