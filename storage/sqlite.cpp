@@ -99,10 +99,12 @@ Database::Database(const std::filesystem::path& file, Access access) : file_(fil
   }
   sqlite3_extended_result_codes(handle_, 1);
   sqlite3_busy_timeout(handle_, kBusyTimeout_ms);
-  if (access == Access::read_only) {
-    run_script("PRAGMA query_only = ON");
-  } else {
-    run_script("PRAGMA foreign_keys = ON; PRAGMA synchronous = FULL");
+  try {
+    run_script(access == Access::read_only ? "PRAGMA query_only = ON"
+                                           : "PRAGMA foreign_keys = ON; PRAGMA synchronous = FULL");
+  } catch (...) {
+    sqlite3_close(handle_);  // the destructor of an object that was never made does not run
+    throw;
   }
 }
 
