@@ -1,25 +1,12 @@
 #include "api/field_errors.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
+
+#include "core/nearest_name.hpp"
 
 namespace raywatch {
 namespace {
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
 
 std::optional<std::string> nearest(std::string_view name, std::span<const std::string> known) {
   constexpr std::size_t longest_name = 64;

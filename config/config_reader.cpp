@@ -10,7 +10,7 @@
 #include <sstream>
 #include <utility>
 
-#include "config/nearest_name.hpp"
+#include "core/nearest_name.hpp"
 
 namespace raywatch {
 namespace {

@@ -18,13 +18,6 @@ const std::string kColumns =
     "c.centroid_z_m, c.min_x_m, c.min_y_m, c.min_z_m, c.max_x_m, c.max_y_m, c.max_z_m, c.box_pose, c.box_x_m, "
     "c.box_y_m, c.box_z_m, c.volume_m3, c.points, c.confidence, c.free, c.supported, c.unknown";
 
-Eigen::Vector3d take_vector(Statement& row) {
-  const auto x = row.take<double>();
-  const auto y = row.take<double>();
-  const auto z = row.take<double>();
-  return {x, y, z};
-}
-
 ChangeRecord read_change(Statement& row) {
   ChangeRecord record;
   record.id = row.take<ChangeId>();

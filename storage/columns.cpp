@@ -5,6 +5,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "storage/sqlite.hpp"
+
 namespace raywatch {
 namespace {
 
@@ -90,6 +92,13 @@ Pose pose_from_bytes(std::span<const std::uint8_t> bytes) {
   std::array<double, 7> n{};
   std::memcpy(n.data(), bytes.data(), bytes.size());
   return {Eigen::Quaterniond(n[6], n[3], n[4], n[5]), Eigen::Vector3d(n[0], n[1], n[2])};
+}
+
+Eigen::Vector3d take_vector(Statement& row) {
+  const auto x = row.take<double>();
+  const auto y = row.take<double>();
+  const auto z = row.take<double>();
+  return {x, y, z};
 }
 
 std::string model_json(const SensorModel& model) {

@@ -17,6 +17,8 @@
 
 namespace raywatch {
 
+class Statement;
+
 // How values stand in single columns.
 
 /// A pose as 7 doubles, little endian: position, then quaternion x, y, z, w.
@@ -24,6 +26,9 @@ using PoseBytes = std::array<std::uint8_t, 56>;
 PoseBytes pose_bytes(const Pose& pose);
 /// @throws CorruptData when the length is wrong.
 Pose pose_from_bytes(std::span<const std::uint8_t> bytes);
+
+/// Takes the next three columns of a row: x, y, z.
+Eigen::Vector3d take_vector(Statement& row);
 
 /// The enumerator whose `to_string` is `text`. @throws CorruptData when there is none.
 template <class Enum>

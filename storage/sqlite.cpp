@@ -153,8 +153,8 @@ void Database::rollback() noexcept {
   if (!sqlite3_get_autocommit(handle_)) sqlite3_exec(handle_, "ROLLBACK", nullptr, nullptr, nullptr);
 }
 
-void Database::transact(const std::function<void()>& f) {
-  run("BEGIN IMMEDIATE");
+void Database::run_between(std::string_view begin, const std::function<void()>& f) {
+  run(begin);
   try {
     f();
     run("COMMIT");
@@ -164,16 +164,8 @@ void Database::transact(const std::function<void()>& f) {
   }
 }
 
-void Database::read_consistently(const std::function<void()>& f) {
-  run("BEGIN");
-  try {
-    f();
-    run("COMMIT");
-  } catch (...) {
-    rollback();
-    throw;
-  }
-}
+void Database::transact(const std::function<void()>& f) { run_between("BEGIN IMMEDIATE", f); }
+void Database::read_consistently(const std::function<void()>& f) { run_between("BEGIN", f); }
 
 std::int64_t Database::last_id() const { return sqlite3_last_insert_rowid(handle_); }
 std::int64_t Database::changed_rows() const { return sqlite3_changes64(handle_); }

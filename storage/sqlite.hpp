@@ -178,6 +178,7 @@ class Database {
  private:
   friend class Statement;
   [[noreturn]] void fail(int code, std::string_view doing) const;
+  void run_between(std::string_view begin, const std::function<void()>& f);
   void rollback() noexcept;
   sqlite3_stmt* borrow(const std::string& sql);
   void give_back(const std::string& sql, sqlite3_stmt* statement) noexcept;

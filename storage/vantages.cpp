@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "storage/columns.hpp"
 #include "storage/cursor.hpp"
 #include "storage/snapshot.hpp"
 #include "storage/spatial.hpp"
@@ -13,18 +14,11 @@ namespace {
 constexpr std::string_view kList = "vantages";
 const std::string kSelect = "SELECT id, site, x_m, y_m, z_m, scans, first_captured_at, last_captured_at FROM vantages ";
 
-Eigen::Vector3d take_place(Statement& row) {
-  const auto x = row.take<double>();
-  const auto y = row.take<double>();
-  const auto z = row.take<double>();
-  return {x, y, z};
-}
-
 Vantage read_vantage(Statement& row) {
   Vantage vantage;
   vantage.id = row.take<VantageId>();
   vantage.site = row.take<SiteId>();
-  vantage.position_m = take_place(row);
+  vantage.position_m = take_vector(row);
   vantage.scans = row.take<std::uint64_t>();
   vantage.first_captured_at = row.take<std::optional<Time>>();
   vantage.last_captured_at = row.take<std::optional<Time>>();
@@ -50,7 +44,7 @@ std::vector<VantageDistance> all_vantages(const Snapshot& snapshot, SiteId site,
   std::vector<VantageDistance> found;
   while (rows.next()) {
     const auto id = rows.take<VantageId>();
-    found.push_back({id, (take_place(rows) - position_m).norm()});
+    found.push_back({id, (take_vector(rows) - position_m).norm()});
   }
   return found;
 }
@@ -91,7 +85,7 @@ std::vector<VantageDistance> vantages_within(const Snapshot& snapshot, SiteId si
   std::vector<VantageDistance> found;
   while (rows.next()) {
     const auto id = rows.take<VantageId>();
-    const double distance_m = (take_place(rows) - position_m).norm();
+    const double distance_m = (take_vector(rows) - position_m).norm();
     if (distance_m < radius_m) found.push_back({id, distance_m});
   }
   return found;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/nearest_name.hpp"
 #include "storage/formats/file_bytes.hpp"
 #include "storage/formats/placement.hpp"
 #include "storage/formats/text_lines.hpp"
@@ -40,22 +41,6 @@ struct Place {
     throw InvalidInput(std::string(file) + ": " + member + ": " + message, {{member, message}});
   }
 };
-
-/// Levenshtein's distance.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
-}
 
 void check_members(const Json& object, std::span<const std::string_view> known, const Place& parent) {
   for (const auto& item : object.items()) {

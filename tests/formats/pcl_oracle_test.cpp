@@ -8,7 +8,7 @@
 
 #include "storage/formats/write.hpp"
 #include "tests/formats/sample_files.hpp"
-#include "tests/formats/temporary_folder.hpp"
+#include "tests/support/temp_dir.hpp"
 
 using namespace raywatch;
 using namespace raywatch::test;
@@ -54,7 +54,7 @@ PointCloud our_cloud() {
 }  // namespace
 
 TEST_CASE("what PCL writes as PCD, in each of its three encodings, reads as the same scan") {
-  const TemporaryFolder folder;
+  const TempDir folder;
   const auto cloud = pcl_cloud(25, 4);
   pcl::PCDWriter writer;
   writer.writeASCII((folder.path() / "ascii.pcd").string(), cloud, 9);
@@ -72,7 +72,7 @@ TEST_CASE("what PCL writes as PCD, in each of its three encodings, reads as the 
 }
 
 TEST_CASE("what PCL writes as PLY, ascii and binary, reads as the same points") {
-  const TemporaryFolder folder;
+  const TempDir folder;
   const auto cloud = pcl_cloud(25, 4);
   pcl::PLYWriter writer;
   writer.write((folder.path() / "ascii.ply").string(), cloud, false, true);
@@ -89,7 +89,7 @@ TEST_CASE("what PCL writes as PLY, ascii and binary, reads as the same points") 
 }
 
 TEST_CASE("PCL reads the scan that we write as PCD") {
-  const TemporaryFolder folder;
+  const TempDir folder;
   const PointCloud ours = our_cloud();
   const Pose pose{.orientation = Eigen::Quaterniond(0, 1, 0, 0), .position_m = {10, 20, 30}};
   std::ofstream out(folder.path() / "ours.pcd", std::ios::binary);
@@ -105,7 +105,7 @@ TEST_CASE("PCL reads the scan that we write as PCD") {
 }
 
 TEST_CASE("PCL reads the points that we write as PCD and PLY") {
-  const TemporaryFolder folder;
+  const TempDir folder;
   const PointCloud ours = our_cloud();
   const PointTable table{.x_m = ours.x_m,
                          .y_m = ours.y_m,

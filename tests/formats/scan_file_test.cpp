@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "tests/formats/sample_files.hpp"
-#include "tests/formats/temporary_folder.hpp"
+#include "tests/support/temp_dir.hpp"
 
 using namespace raywatch;
 using namespace raywatch::test;
@@ -178,7 +178,7 @@ TEST_CASE("a KITTI file that is no whole number of records is refused") {
 }
 
 TEST_CASE("a file is read from the disk, and what is none is refused") {
-  const TemporaryFolder folder;
+  const TempDir folder;
   const auto path = folder.path() / "scan.xyz";
   std::ofstream(path) << "1 2 3\n";
   CHECK(read_scan_file(path)[0].points.size() == 1);

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "tests/formats/sample_files.hpp"
-#include "tests/formats/temporary_folder.hpp"
+#include "tests/support/temp_dir.hpp"
 
 using namespace raywatch;
 using namespace raywatch::test;
@@ -64,12 +64,12 @@ TEST_CASE("a side-car with a mistake is refused with the file and the member") {
 }
 
 TEST_CASE("a scan file without a side-car has no hints") {
-  const TemporaryFolder folder;
+  const TempDir folder;
   CHECK_FALSE(read_side_car(folder.path() / "scan.pcd").pose);
 }
 
 TEST_CASE("what is written as a side-car is read back exactly") {
-  const TemporaryFolder folder;
+  const TempDir folder;
   const auto scan_file = folder.path() / "scan.pcd";
   const Pose pose{.orientation = Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5), .position_m = {0.1, 1.0 / 3.0, -5400000.123}};
   const ScanHints written{.frame = Frame::sensor,
@@ -87,7 +87,7 @@ TEST_CASE("what is written as a side-car is read back exactly") {
 }
 
 TEST_CASE("a side-car that cannot be written or is no side-car is refused") {
-  const TemporaryFolder folder;
+  const TempDir folder;
   CHECK_THROWS_AS(write_side_car(folder.path() / "absent" / "scan.pcd", {}), StorageError);
   CHECK_THROWS_AS(write_side_car(folder.path() / "scan.pcd", {.sensor = "\xFF"}), InvalidInput);
   std::ofstream(folder.path() / "huge.pcd.json") << std::string(2 << 20, ' ');

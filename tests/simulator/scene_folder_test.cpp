@@ -8,37 +8,21 @@
 
 #include "core/error.hpp"
 #include "storage/formats/side_car.hpp"
+#include "tests/support/temp_dir.hpp"
 
 using namespace raywatch;
 using namespace raywatch::simulator;
-
-namespace {
-
-/// A folder of its own that is gone after the test.
-struct ScratchFolder {
-  std::filesystem::path path;
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "raywatch-scene-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~ScratchFolder() { std::filesystem::remove_all(path); }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-};
-
-}  // namespace
 
 TEST_CASE("scans, side-cars, labels and manifest can be read back") {
   const FamilyOptions options{.seed = 8, .hard = true, .density = 0.02, .scans = 2};
   const Timeline timeline = make_timeline(Family::lab, options);
   const SimulatedScan scan = take_scan(timeline, timeline.moments[1]);
-  const ScratchFolder scratch;
-  SceneFolder folder(scratch.path / "new" / "place");
+  const TempDir scratch;
+  SceneFolder folder(scratch / "new" / "place");
   REQUIRE(folder.add("lab_0001", scan) == "lab_0001.pcd");
   folder.write_manifest(Family::lab, options, timeline);
 
-  const std::filesystem::path file = scratch.path / "new" / "place" / "lab_0001.pcd";
+  const std::filesystem::path file = scratch / "new" / "place" / "lab_0001.pcd";
   const ScanHints side_car = read_side_car(file);
   CHECK(side_car.sensor == scan.sensor);
   CHECK(side_car.captured_at == scan.captured_at);

@@ -1,4 +1,4 @@
-#include "config/nearest_name.hpp"
+#include "core/nearest_name.hpp"
 
 #include <doctest/doctest.h>
 
