@@ -71,6 +71,7 @@ struct ScanView {
   Pose world_from_sensor;   ///< with the registration applied
   Time captured_at;
   SensorModel sensor;  ///< as far as known or estimated
+  PoseUncertainty pose_uncertainty = {};  ///< of `world_from_sensor`, as the registration left it
 };
 
 /// Which returns of a sensor take part in a comparison. `union` filters by the parameters alone; `consensus` also

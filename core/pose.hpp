@@ -20,6 +20,12 @@ struct Pose {
   }
 };
 
+/// How far a pose may be off: one standard deviation of each axis. Zero: taken as exact.
+struct PoseUncertainty {
+  double position_m = 0.0;
+  double angle_rad = 0.0;
+};
+
 /// How far the norm of a quaternion that a user gives may be from 1; within it the quaternion is normalised.
 inline constexpr double kQuaternionNormTolerance = 1e-3;
 
