@@ -70,7 +70,7 @@ struct ScanView {
   const PriorIndex& index;  ///< of the same points
   Pose world_from_sensor;   ///< with the registration applied
   Time captured_at;
-  SensorModel sensor;  ///< as far as known or estimated
+  SensorModel sensor;                     ///< as far as known or estimated
   PoseUncertainty pose_uncertainty = {};  ///< of `world_from_sensor`, as the registration left it
 };
 

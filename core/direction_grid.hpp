@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -26,6 +25,20 @@ Direction direction_of(Scalar x, Scalar y, Scalar z) {
   return {std::atan2(yf, xf), std::atan2(zf, std::hypot(xf, yf))};
 }
 
+/// The tables of a `DirectionGrid` as vector code reads them. Cell = first[row] + column, with
+/// row = floor((elevation - low) * rows_per_rad) and column = floor((azimuth / 2 pi + 1/2) * columns[row]), each kept
+/// within its bounds.
+struct DirectionGridView {
+  float low_rad = 0.0f;
+  float rows_per_rad = 1.0f;
+  std::int32_t rows = 0;
+  float cell_rad = 1.0f;
+  const float* columns = nullptr;          ///< number of columns, one a row
+  const float* least_cosine = nullptr;     ///< least cosine of an elevation, one a row
+  const float* greatest_cosine = nullptr;  ///< greatest cosine of an elevation, one a row
+  const std::uint32_t* first = nullptr;    ///< first cell, one a row
+};
+
 /// A partition of a band of the sphere into cells of nearly equal size: rows of one height, each cut into as many
 /// columns as keep a cell no wider than it is high. It has no seam (columns wrap around) and no crowded poles.
 class DirectionGrid {
@@ -40,11 +53,14 @@ class DirectionGrid {
     for (std::size_t row = 0; row < rows; ++row) {
       const double bottom = row_bottom_rad(row), top = bottom + cell_rad;
       const double at_bottom = std::max(0.0, std::cos(bottom)), at_top = std::max(0.0, std::cos(top));
-      least_cosine_.push_back(top >= std::numbers::pi / 2 ? 0.0 : std::min(at_bottom, at_top));
-      greatest_cosine_.push_back(bottom <= 0.0 && top >= 0.0 ? 1.0 : std::max(at_bottom, at_top));
-      const double widest = 2.0 * std::numbers::pi * greatest_cosine_[row];
+      const double least = top >= std::numbers::pi / 2 ? 0.0 : std::min(at_bottom, at_top);
+      const double greatest = bottom <= 0.0 && top >= 0.0 ? 1.0 : std::max(at_bottom, at_top);
+      least_cosine_.push_back(static_cast<float>(least * (1.0 - kCosineMargin)));
+      greatest_cosine_.push_back(static_cast<float>(greatest * (1.0 + kCosineMargin)));
+      const double widest = 2.0 * std::numbers::pi * greatest;
       const auto columns = static_cast<std::uint32_t>(std::max(1.0, std::ceil(widest / cell_rad)));
       first_.push_back(first_.back() + columns);
+      columns_.push_back(static_cast<float>(columns));
     }
   }
 
@@ -52,9 +68,19 @@ class DirectionGrid {
   std::size_t cells() const { return first_.empty() ? 0 : first_.back(); }
   std::uint32_t first_cell(std::size_t row) const { return first_[row]; }
   std::uint32_t columns(std::size_t row) const { return first_[row + 1] - first_[row]; }
+  DirectionGridView view() const {
+    return {.low_rad = static_cast<float>(low_rad_),
+            .rows_per_rad = static_cast<float>(1.0 / cell_rad_),
+            .rows = static_cast<std::int32_t>(rows()),
+            .cell_rad = static_cast<float>(cell_rad_),
+            .columns = columns_.data(),
+            .least_cosine = least_cosine_.data(),
+            .greatest_cosine = greatest_cosine_.data(),
+            .first = first_.data()};
+  }
   double cell_rad() const { return cell_rad_; }
   double row_bottom_rad(std::size_t row) const { return low_rad_ + static_cast<double>(row) * cell_rad_; }
-  /// The least and the greatest cosine of an elevation in the row; never negative.
+  /// Bounds of the cosines of the elevations in the row; never negative.
   double least_cosine(std::size_t row) const { return least_cosine_[row]; }
   double greatest_cosine(std::size_t row) const { return greatest_cosine_[row]; }
 
@@ -76,9 +102,12 @@ class DirectionGrid {
   }
 
  private:
+  static constexpr double kCosineMargin = 2e-7;  ///< keeps bounds in single precision bounds
+
   double low_rad_ = 0.0;
   double cell_rad_ = 1.0;
-  std::vector<double> least_cosine_, greatest_cosine_;
+  std::vector<float> least_cosine_, greatest_cosine_;
+  std::vector<float> columns_;
   std::vector<std::uint32_t> first_;  ///< first cell of each row, and the number of cells
 };
 

@@ -66,7 +66,7 @@ class SurfaceFit {
     const Direction axis = direction_of(point_m_.x(), point_m_.y(), point_m_.z());
     cone_.for_each_cell(prior_.grid, axis, [&](std::uint32_t cell, bool inside) {
       for (std::uint32_t i = prior_.first[cell]; i < prior_.first[cell + 1]; ++i) {
-        const Eigen::Vector3d p(prior_.x_m[i], prior_.y_m[i], prior_.z_m[i]);
+        const Eigen::Vector3d p(prior_.returns[i].x_m, prior_.returns[i].y_m, prior_.returns[i].z_m);
         const double rho = p.norm();
         if (!inside && p.dot(point_m_) < cosine_ * rho * range_m_) continue;
         if (!visit(p, rho)) return false;

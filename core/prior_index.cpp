@@ -1,10 +1,16 @@
 #include "core/prior_index.hpp"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <numbers>
+#include <vector>
 
+#include "core/index_kernels.hpp"
 #include "core/prior_index_impl.hpp"
 
 namespace raywatch {
@@ -14,70 +20,112 @@ constexpr double kReturnsPerCell = 2.0;
 constexpr double kLeastCell_rad = 2e-5;
 constexpr double kMostCell_rad = 0.05;
 
-struct UsableReturns {
-  std::vector<std::uint32_t> index;
-  std::vector<Direction> direction;
-  float low_rad = std::numeric_limits<float>::infinity();
-  float high_rad = -std::numeric_limits<float>::infinity();
-};
-
-UsableReturns usable_returns(const PointCloud& points, const UsableRange& usable) {
-  UsableReturns returns;
-  returns.index.reserve(points.size());
-  returns.direction.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double x = points.x_m[i], y = points.y_m[i], z = points.z_m[i];
-    if (!is_usable(std::sqrt(x * x + y * y + z * z), usable)) continue;
-    const Direction direction = direction_of(points.x_m[i], points.y_m[i], points.z_m[i]);
-    returns.index.push_back(static_cast<std::uint32_t>(i));
-    returns.direction.push_back(direction);
-    returns.low_rad = std::min(returns.low_rad, direction.elevation_rad);
-    returns.high_rad = std::max(returns.high_rad, direction.elevation_rad);
-  }
-  return returns;
-}
-
 /// Cells that hold `kReturnsPerCell` returns on the average of the band that the scan covers.
-DirectionGrid grid_for(const UsableReturns& returns) {
-  if (returns.index.empty()) return {};
-  const double low = returns.low_rad, high = returns.high_rad;
-  const double band_sr = 2.0 * std::numbers::pi * std::max(std::sin(high) - std::sin(low), 1e-4);
-  const double cell = std::sqrt(kReturnsPerCell * band_sr / static_cast<double>(returns.index.size()));
-  return DirectionGrid(low, high, std::clamp(cell, kLeastCell_rad, kMostCell_rad));
+DirectionGrid grid_for(const ElevationBand& band) {
+  const double band_sr = 2.0 * std::numbers::pi * std::max(std::sin(band.high_rad) - std::sin(band.low_rad), 1e-4);
+  const double cell = std::sqrt(kReturnsPerCell * band_sr / static_cast<double>(band.count));
+  return DirectionGrid(band.low_rad, band.high_rad, std::clamp(cell, kLeastCell_rad, kMostCell_rad));
 }
+
+/// A stable counting sort of the returns by cell, in as many parts of the scan as there are threads: each part counts
+/// its own returns, so that it knows where they go. The result does not depend on the number of parts.
+class CellSort {
+ public:
+  CellSort(const PointCloud& points, const UsableRange& usable, PriorIndex::Impl& index)
+      : points_(planes_of(points)), usable_(usable), index_(index), cells_(points.size()) {
+    constexpr std::size_t kLeastPart = 65536;
+    const auto threads = static_cast<std::size_t>(std::max(1, tbb::this_task_arena::max_concurrency()));
+    const std::size_t parts = std::clamp<std::size_t>(points_.size / kLeastPart, 1, threads);
+    for (std::size_t part = 0; part <= parts; ++part) begin_.push_back(points_.size * part / parts);
+    counts_.resize(parts);
+  }
+
+  void run() {
+    for_each_part([&](std::size_t part) { count(part); });
+    number();
+    for_each_part([&](std::size_t part) { place(part); });
+    bound_ranges();
+  }
+
+ private:
+  template <class F>
+  void for_each_part(F f) {
+    tbb::parallel_for(std::size_t{0}, counts_.size(), f);
+  }
+
+  void count(std::size_t part) {
+    std::vector<std::uint32_t>& counts = counts_[part];
+    counts.assign(index_.grid.cells(), 0);
+    constexpr std::size_t kBlock = 2048;
+    for (std::size_t begin = begin_[part]; begin < begin_[part + 1]; begin += kBlock) {
+      const std::size_t size = std::min(kBlock, begin_[part + 1] - begin);
+      assign_cells(points_.subspan(begin, size), usable_, index_.grid.view(), cells_.data() + begin);
+      for (std::size_t i = begin; i < begin + size; ++i) {
+        if (cells_[i] != kNoCell) ++counts[cells_[i]];
+      }
+    }
+  }
+
+  /// Turns the counts of the parts into the places of their first returns.
+  void number() {
+    std::uint32_t next = 0;
+    for (std::size_t cell = 0; cell < index_.grid.cells(); ++cell) {
+      index_.first[cell] = next;
+      for (std::vector<std::uint32_t>& counts : counts_) {
+        const std::uint32_t count = counts[cell];
+        counts[cell] = next;
+        next += count;
+      }
+    }
+    index_.first[index_.grid.cells()] = next;
+  }
+
+  void place(std::size_t part) {
+    std::vector<std::uint32_t>& next = counts_[part];
+    for (std::size_t i = begin_[part]; i < begin_[part + 1]; ++i) {
+      if (cells_[i] == kNoCell) continue;
+      const float x = points_.x_m[i], y = points_.y_m[i], z = points_.z_m[i];
+      index_.returns[next[cells_[i]]++] = {x, y, z, std::sqrt(x * x + y * y + z * z)};
+    }
+  }
+
+  void bound_ranges() {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const tbb::blocked_range<std::size_t> all(0, index_.grid.cells(), 16384);
+    tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& cells) {
+      for (std::size_t cell = cells.begin(); cell < cells.end(); ++cell) {
+        float least_m = kInfinity, greatest_m = -kInfinity;
+        for (std::uint32_t i = index_.first[cell]; i < index_.first[cell + 1]; ++i) {
+          least_m = std::min(least_m, index_.returns[i].range_m);
+          greatest_m = std::max(greatest_m, index_.returns[i].range_m);
+        }
+        index_.least_m[cell] = least_m;
+        index_.greatest_m[cell] = greatest_m;
+      }
+    });
+  }
+
+  PointPlanes points_;
+  const UsableRange& usable_;
+  PriorIndex::Impl& index_;
+  RawArray<std::uint32_t> cells_;
+  std::vector<std::size_t> begin_;                  ///< first point of each part, and the number of points
+  std::vector<std::vector<std::uint32_t>> counts_;  ///< of each part, one a cell
+};
 
 }  // namespace
 
 PriorIndex PriorIndex::build(const PointCloud& points, const UsableRange& usable) {
   auto impl = std::make_unique<Impl>();
   impl->usable = usable;
-  const UsableReturns returns = usable_returns(points, usable);
-  impl->grid = grid_for(returns);
-  const std::size_t n = returns.index.size();
-  const std::size_t cells = impl->grid.cells();
-
-  // Counting sort by cell; within a cell the order of the scan stays.
-  std::vector<std::uint32_t> cell_of(n);
-  impl->first.assign(cells + 1, 0);
-  for (std::size_t k = 0; k < n; ++k) {
-    cell_of[k] = impl->grid.cell_of(returns.direction[k]);
-    ++impl->first[cell_of[k] + 1];
-  }
-  std::partial_sum(impl->first.begin(), impl->first.end(), impl->first.begin());
-  std::vector<std::uint32_t> next(impl->first.begin(), impl->first.end());
-  impl->x_m.resize(n);
-  impl->y_m.resize(n);
-  impl->z_m.resize(n);
-  impl->source.resize(n);
-  impl->range_m.assign(cells, RangeInterval{});
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::uint32_t i = returns.index[k];
-    const std::uint32_t slot = next[cell_of[k]]++;
-    const double x = impl->x_m[slot] = points.x_m[i];
-    const double y = impl->y_m[slot] = points.y_m[i];
-    const double z = impl->z_m[slot] = points.z_m[i];
-    impl->source[slot] = i;
-    impl->range_m[cell_of[k]].extend(std::sqrt(x * x + y * y + z * z));
+  const ElevationBand band = find_elevation_band(planes_of(points), usable);
+  if (band.count > 0) {
+    impl->grid = grid_for(band);
+    impl->returns = RawArray<Return>(band.count);
+    impl->first = RawArray<std::uint32_t>(impl->grid.cells() + 1);
+    impl->least_m = RawArray<float>(impl->grid.cells());
+    impl->greatest_m = RawArray<float>(impl->grid.cells());
+    CellSort(points, usable, *impl).run();
   }
   return PriorIndex(std::move(impl));
 }
@@ -87,10 +135,10 @@ PriorIndex::PriorIndex(PriorIndex&&) noexcept = default;
 PriorIndex& PriorIndex::operator=(PriorIndex&&) noexcept = default;
 PriorIndex::~PriorIndex() = default;
 
-std::size_t PriorIndex::size() const { return impl_->source.size(); }
+std::size_t PriorIndex::size() const { return impl_->returns.size(); }
 std::size_t PriorIndex::bytes() const {
-  return sizeof(Impl) + size() * (3 * sizeof(float) + sizeof(std::uint32_t)) +
-         impl_->grid.cells() * (sizeof(RangeInterval) + sizeof(std::uint32_t));
+  constexpr std::size_t kBytesPerCell = sizeof(std::uint32_t) + 2 * sizeof(float);
+  return sizeof(Impl) + size() * sizeof(Return) + impl_->grid.cells() * kBytesPerCell;
 }
 const UsableRange& PriorIndex::usable() const { return impl_->usable; }
 

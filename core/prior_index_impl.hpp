@@ -1,39 +1,31 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
-#include <limits>
-#include <vector>
 
 #include "core/direction_grid.hpp"
 #include "core/prior_index.hpp"
+#include "core/raw_array.hpp"
 
 namespace raywatch {
 
-/// The ranges of the returns of one cell, rounded outwards so that a bound is never inside what it bounds.
-struct RangeInterval {
-  float least_m = std::numeric_limits<float>::infinity();
-  float greatest_m = -std::numeric_limits<float>::infinity();
-
-  bool empty() const { return least_m > greatest_m; }
-  void extend(double range_m) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    auto low = static_cast<float>(range_m), high = low;
-    if (low > range_m) low = std::nextafter(low, -kInfinity);
-    if (high < range_m) high = std::nextafter(high, kInfinity);
-    least_m = std::min(least_m, low);
-    greatest_m = std::max(greatest_m, high);
-  }
+/// A usable return in the sensor frame, with its range.
+struct alignas(16) Return {
+  float x_m, y_m, z_m, range_m;
 };
 
-/// The usable returns, sorted by the cell of their direction.
+inline Direction direction_of(const Return& r) { return direction_of(r.x_m, r.y_m, r.z_m); }
+
+/// Upper bound of the relative error of a range in single precision, as `Return::range_m` and the bounds of cells have
+/// it. Decisions closer to a threshold than this are taken in double precision from the coordinates.
+inline constexpr float kRangeError = 5e-7f;
+
+/// The usable returns, sorted by the cell of their direction; in a cell they keep the order of the scan.
 struct PriorIndex::Impl {
   UsableRange usable;
   DirectionGrid grid;
-  std::vector<std::uint32_t> first;    ///< first return of each cell, and the number of returns
-  std::vector<RangeInterval> range_m;  ///< of each cell
-  std::vector<float> x_m, y_m, z_m;    ///< in the sensor frame
-  std::vector<std::uint32_t> source;   ///< place of each return in the scan
+  RawArray<Return> returns;
+  RawArray<std::uint32_t> first;        ///< first return of each cell, and the number of returns
+  RawArray<float> least_m, greatest_m;  ///< ranges of each cell's returns; infinity and -infinity where it is empty
 };
 
 }  // namespace raywatch

@@ -39,7 +39,7 @@ struct Neighbours {
 
 Neighbours look_around(const PriorIndex::Impl& index, std::uint32_t center, double radius_rad) {
   const DirectionGrid& grid = index.grid;
-  const Direction from = direction_of(index.x_m[center], index.y_m[center], index.z_m[center]);
+  const Direction from = direction_of(index.returns[center]);
   Neighbours neighbours;
   const std::size_t first_row = grid.row_of(from.elevation_rad - radius_rad);
   const std::size_t last_row = grid.row_of(from.elevation_rad + radius_rad);
@@ -52,7 +52,7 @@ Neighbours look_around(const PriorIndex::Impl& index, std::uint32_t center, doub
     for (std::int64_t c = first; c <= last; ++c) {
       const std::uint32_t cell = grid.first_cell(row) + static_cast<std::uint32_t>((c + columns) % columns);
       for (std::uint32_t i = index.first[cell]; i < index.first[cell + 1]; ++i) {
-        const Direction to = direction_of(index.x_m[i], index.y_m[i], index.z_m[i]);
+        const Direction to = direction_of(index.returns[i]);
         const double turn = std::remainder(to.azimuth_rad - from.azimuth_rad, 2.0 * std::numbers::pi);
         neighbours.offer(turn * std::cos(from.elevation_rad), to.elevation_rad - from.elevation_rad);
       }
@@ -63,7 +63,7 @@ Neighbours look_around(const PriorIndex::Impl& index, std::uint32_t center, doub
 
 std::optional<Eigen::Vector2d> angular_resolution(const PriorIndex::Impl& index) {
   std::vector<double> azimuth, elevation;
-  const std::size_t n = index.source.size();
+  const std::size_t n = index.returns.size();
   const std::size_t samples = std::min(n, kSamples);
   for (std::size_t k = 0; k < samples; ++k) {
     const auto center = static_cast<std::uint32_t>(k * n / samples);

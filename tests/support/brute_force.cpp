@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace raywatch::testing {
 namespace {
@@ -27,9 +28,12 @@ BruteForceAnswer brute_force_answer(const std::vector<Eigen::Vector3d>& prior_re
   double least_a = std::numeric_limits<double>::infinity(), greatest_a = -least_a;
   double least_e = least_a, greatest_e = -least_a;
   double margin = std::numeric_limits<double>::infinity();
+  // Returns that are clearly out of the cone need no angle.
+  const double clearly_outside = std::cos(std::min(1.1 * thresholds.angle_rad + 1e-3, std::numbers::pi));
   for (const Eigen::Vector3d& p : prior_returns_m) {
     const double rho_i = p.norm();
     const Eigen::Vector3d u_i = p / rho_i;
+    if (u.dot(u_i) < clearly_outside) continue;
     const double angle = angle_between_rad(u, u_i);
     margin = std::min(margin, std::abs(angle - thresholds.angle_rad));
     if (angle > thresholds.angle_rad) continue;

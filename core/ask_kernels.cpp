@@ -1,0 +1,154 @@
+#include "core/ask_kernels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "core/inquiry.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/ask_kernels.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once for each instruction set
+
+#include "core/cone_window-inl.hpp"
+#include "core/spherical_simd-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace raywatch::HWY_NAMESPACE {
+
+/// One vector of points in the prior's frame: computed in double precision, as far points of one scan may be near ones
+/// of another.
+Coordinates moved(const RigidMotion& motion, const PointPlanes& points, std::size_t i, std::size_t count) {
+  const FloatTag d;
+  const hn::ScalableTag<double> dd;
+  const hn::Rebind<float, decltype(dd)> df;
+  HWY_ALIGN float rest[3][kMostLanes] = {};
+  const float* from[3] = {points.x_m + i, points.y_m + i, points.z_m + i};
+  if (count < hn::Lanes(d)) {
+    for (int axis = 0; axis < 3; ++axis) {
+      std::copy_n(from[axis], count, rest[axis]);
+      from[axis] = rest[axis];
+    }
+  }
+  HWY_ALIGN float to[3][kMostLanes];
+  for (std::size_t k = 0; k < hn::Lanes(d); k += hn::Lanes(dd)) {
+    const auto x = hn::PromoteTo(dd, hn::LoadU(df, from[0] + k));
+    const auto y = hn::PromoteTo(dd, hn::LoadU(df, from[1] + k));
+    const auto z = hn::PromoteTo(dd, hn::LoadU(df, from[2] + k));
+    for (int r = 0; r < 3; ++r) {
+      auto sum = hn::MulAdd(hn::Set(dd, motion.rotation[3 * r]), x, hn::Set(dd, motion.translation_m[r]));
+      sum = hn::MulAdd(hn::Set(dd, motion.rotation[3 * r + 1]), y, sum);
+      sum = hn::MulAdd(hn::Set(dd, motion.rotation[3 * r + 2]), z, sum);
+      hn::Store(hn::DemoteTo(df, sum), df, to[r] + k);
+    }
+  }
+  return {hn::Load(d, to[0]), hn::Load(d, to[1]), hn::Load(d, to[2])};
+}
+
+/// Which points the bounds of the cell in their direction support.
+FloatMask supported_by_own_cell(const PreparedPrior& prior, const CellLookup& own, Floats range) {
+  const FloatTag d;
+  const Floats least = hn::GatherIndex(d, prior.index.least_m.data(), own.cell);
+  const Floats greatest = hn::GatherIndex(d, prior.index.greatest_m.data(), own.cell);
+  const RangeBand band(range, prior.thresholds.range_m);
+  return hn::And(band.supports(least, greatest), own.in_band);
+}
+
+/// The lanes among the first `count` that `valid` holds for.
+FloatMask valid_lanes(const std::uint8_t* valid, std::size_t count) {
+  const hn::Rebind<std::uint8_t, FloatTag> bytes;
+  const IntTag di;
+  std::uint8_t rest[kMostLanes] = {};
+  if (count < hn::Lanes(FloatTag())) {
+    std::copy_n(valid, count, rest);
+    valid = rest;
+  }
+  return hn::RebindMask(FloatTag(), hn::Ne(hn::PromoteTo(di, hn::LoadU(bytes, valid)), hn::Zero(di)));
+}
+
+/// The first pass over a block: answers what the points' own cells decide, and collects the others.
+void ask_own_cells(const PreparedPrior& prior, const PointPlanes& points, const std::uint8_t* valid,
+                   const RigidMotion& motion, Answer* answers, OpenPoints& open) {
+  const FloatTag d;
+  const IntTag di;
+  const std::size_t lanes = hn::Lanes(d);
+  const DirectionGridView grid = prior.index.grid.view();
+  for (std::size_t i = 0; i < points.size; i += lanes) {
+    const std::size_t count = std::min(lanes, points.size - i);
+    const Coordinates p = moved(motion, points, i, count);
+    const Floats horizontal = hn::Sqrt(hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y)));
+    const Spherical s = spherical_of(p);
+    const FloatMask is_valid = valid_lanes(valid + i, count);
+    FloatMask supported = hn::FirstN(d, 0);
+    if (prior.own_cell_is_inside) {
+      const CellLookup own = cells_of(grid, s.azimuth, s.elevation);
+      supported = hn::And(is_valid, supported_by_own_cell(prior, own, s.range));
+    }
+    constexpr auto kUnseen = static_cast<int>(Answer::unseen), kSupported = static_cast<int>(Answer::supported);
+    const hn::Rebind<std::uint8_t, FloatTag> bytes;
+    const Ints answer = hn::IfThenElse(hn::RebindMask(di, supported), hn::Set(di, kSupported), hn::Set(di, kUnseen));
+    std::uint8_t stored[kMostLanes];
+    hn::StoreU(hn::DemoteTo(bytes, answer), bytes, stored);
+    for (std::size_t lane = 0; lane < count; ++lane) answers[i + lane] = static_cast<Answer>(stored[lane]);
+    const FloatMask is_open = hn::AndNot(supported, is_valid);
+    if (hn::AllFalse(d, is_open)) continue;
+    const Ints place = hn::Add(hn::Set(di, static_cast<std::int32_t>(i)), hn::Iota(di, 0));
+    const std::size_t end = open.size;
+    open.size += hn::CompressStore(place, hn::RebindMask(di, is_open), di, open.place + end);
+    hn::CompressStore(s.range, is_open, d, open.range_m + end);
+    hn::CompressStore(s.azimuth, is_open, d, open.azimuth_rad + end);
+    hn::CompressStore(s.elevation, is_open, d, open.elevation_rad + end);
+    hn::CompressStore(hn::Div(horizontal, hn::Max(s.range, constant(1e-37f))), is_open, d, open.cosine + end);
+  }
+}
+
+void ask_block_simd(const PreparedPrior& prior, const PointPlanes& points, const std::uint8_t* valid,
+                    const RigidMotion& motion, Answer* answers) {
+  OpenPoints open;
+  ConeSpans spans(prior);
+  const Inquiry inquiry(prior);
+  for (std::size_t begin = 0; begin < points.size; begin += OpenPoints::kMost) {
+    const std::size_t count = std::min(OpenPoints::kMost, points.size - begin);
+    const PointPlanes block = points.subspan(begin, count);
+    open.size = 0;
+    ask_own_cells(prior, block, valid + begin, motion, answers + begin, open);
+    for (std::size_t k = 0; k < open.size; k += hn::Lanes(FloatTag())) {
+      const std::size_t lanes = std::min(hn::Lanes(FloatTag()), open.size - k);
+      spans.find(open, k, lanes);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const auto i = static_cast<std::size_t>(open.place[k + lane]);
+        Remains remains;
+        ConeWindow window(prior.index, spans, lane, open.range_m[k + lane], prior.thresholds.range_m);
+        const std::optional<Answer> answer = window.look(remains);
+        answers[begin + i] = answer ? *answer
+                                    : inquiry(motion.apply(block.x_m[i], block.y_m[i], block.z_m[i]),
+                                              {open.azimuth_rad[k + lane], open.elevation_rad[k + lane]}, remains);
+      }
+    }
+  }
+}
+
+}  // namespace raywatch::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace raywatch {
+
+HWY_EXPORT(ask_block_simd);
+
+RigidMotion::RigidMotion(const Pose& to_from) {
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation, 3, 3) = to_from.orientation.toRotationMatrix();
+  Eigen::Map<Eigen::Vector3d>(translation_m, 3) = to_from.position_m;
+}
+
+PreparedPrior::PreparedPrior(const PriorIndex::Impl& asked, const Thresholds& how)
+    : index(asked), thresholds(how), cone(how.angle_rad), own_cell_is_inside(cone.encloses_cell_of_axis(asked.grid)) {}
+
+void ask_block(const PreparedPrior& prior, const PointPlanes& points, const std::uint8_t* valid,
+               const RigidMotion& prior_from_points, Answer* answers) {
+  HWY_DYNAMIC_DISPATCH(ask_block_simd)(prior, points, valid, prior_from_points, answers);
+}
+
+}  // namespace raywatch
+#endif

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "core/ask_kernels.hpp"
+#include "core/question.hpp"
+
+namespace raywatch {
+
+/// What the bounds of cells have told about a point, and the cells whose returns must be looked at to tell more.
+struct Remains {
+  static constexpr std::size_t kMostCells = 24;
+  bool is_complete = false;    ///< if not, everything must be asked anew
+  bool is_surrounded = false;  ///< if not, the point may still be surrounded by returns in the cone
+  Evidence evidence;
+  std::uint32_t count = 0;
+  std::array<std::uint32_t, kMostCells> cells;
+
+  void add(std::uint32_t cell) {
+    if (count < kMostCells) {
+      cells[count++] = cell;
+    } else {
+      is_complete = false;
+    }
+  }
+};
+
+/// Asks about one point at a time, return by return, in double precision.
+class Inquiry {
+ public:
+  explicit Inquiry(const PreparedPrior& prior) : prior_(prior), thresholds_(prior.thresholds) {}
+
+  Answer operator()(const std::array<double, 3>& point_m, const Direction& direction, const Remains& remains) const {
+    const Question question(point_m[0], point_m[1], point_m[2], thresholds_);
+    if (!(question.range_m() > 0.0)) return Answer::unseen;
+    if (!remains.is_complete) return ask_every_cell(question, direction);
+    Evidence evidence = remains.evidence;
+    for (std::uint32_t k = 0; k < remains.count && !evidence.supported; ++k) {
+      look_at_cell(question, remains.cells[k], evidence);
+    }
+    const bool in_front = evidence.any && !evidence.not_farther;
+    if (!in_front || evidence.surrounded()) return evidence.answer();
+    return remains.is_surrounded ? Answer::free : ask_every_cell(question, direction);
+  }
+
+ private:
+  void look_at_cell(const Question& question, std::uint32_t cell, Evidence& evidence) const {
+    for (std::uint32_t i = prior_.index.first[cell]; i < prior_.index.first[cell + 1]; ++i) {
+      const Return& r = prior_.index.returns[i];
+      evidence.look_at(question, r.x_m, r.y_m, r.z_m);
+    }
+  }
+
+  Answer ask_every_cell(const Question& question, const Direction& direction) const {
+    Evidence evidence;
+    prior_.cone.for_each_cell(prior_.index.grid, direction, [&](std::uint32_t cell, bool inside) {
+      if (!adds_nothing(question, cell, inside, evidence)) look_at_cell(question, cell, evidence);
+      return !evidence.supported;
+    });
+    return evidence.answer();
+  }
+
+  /// Skips the cell's returns when its bounds already say all that they could add, and adds that.
+  bool adds_nothing(const Question& question, std::uint32_t cell, bool inside, Evidence& evidence) const {
+    const float least_m = prior_.index.least_m[cell], greatest_m = prior_.index.greatest_m[cell];
+    if (least_m > greatest_m) return true;
+    const double rounding_m = 2.0 * kRangeError * question.range_m();
+    if (greatest_m <= question.range_m() - thresholds_.range_m - rounding_m && (inside || evidence.not_farther)) {
+      evidence.any |= inside;
+      evidence.not_farther = true;
+      return true;
+    }
+    if (least_m >= question.range_m() + thresholds_.range_m + rounding_m && (inside || evidence.not_nearer) &&
+        (evidence.not_farther || evidence.surrounded())) {
+      evidence.any |= inside;
+      evidence.not_nearer = true;
+      return true;
+    }
+    return false;
+  }
+
+  const PreparedPrior& prior_;
+  SquaredThresholds thresholds_;
+};
+
+}  // namespace raywatch
