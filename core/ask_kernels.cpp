@@ -46,13 +46,31 @@ Coordinates moved(const RigidMotion& motion, const PointPlanes& points, std::siz
   return {hn::Load(d, to[0]), hn::Load(d, to[1]), hn::Load(d, to[2])};
 }
 
-/// Which points the bounds of the cell in their direction support.
-FloatMask supported_by_own_cell(const PreparedPrior& prior, const CellLookup& own, Floats range) {
+/// Which points the bounds of the cell in a direction support.
+FloatMask supported_by_cell(const PreparedPrior& prior, const RangeBand& band, const DirectionGridView& grid,
+                            Floats azimuth, Floats elevation) {
   const FloatTag d;
-  const Floats least = hn::GatherIndex(d, prior.index.least_m.data(), own.cell);
-  const Floats greatest = hn::GatherIndex(d, prior.index.greatest_m.data(), own.cell);
-  const RangeBand band(range, prior.thresholds.range_m);
-  return hn::And(band.supports(least, greatest), own.in_band);
+  const CellLookup lookup = cells_of(grid, azimuth, elevation);
+  const Floats least = hn::GatherIndex(d, prior.index.least_m.data(), lookup.cell);
+  const Floats greatest = hn::GatherIndex(d, prior.index.greatest_m.data(), lookup.cell);
+  return hn::And(band.supports(least, greatest), lookup.in_band);
+}
+
+/// Which of the `wanted` points the bounds of cells support that lie inside of the cone wherever in its own cell the
+/// axis is: that cell, then those above and below it.
+FloatMask supported_at_once(const PreparedPrior& prior, const Spherical& point, FloatMask wanted) {
+  const FloatTag d;
+  if (!prior.own_cell_is_inside) return hn::FirstN(d, 0);
+  const DirectionGridView grid = prior.index.grid.view();
+  const RangeBand band(point.range, prior.thresholds.range_m);
+  FloatMask supported = hn::And(wanted, supported_by_cell(prior, band, grid, point.azimuth, point.elevation));
+  if (!prior.cells_above_and_below_are_inside) return supported;
+  for (const float step : {grid.cell_rad, -grid.cell_rad}) {
+    if (hn::AllFalse(d, hn::AndNot(supported, wanted))) break;
+    const Floats elevation = hn::Add(point.elevation, constant(step));
+    supported = hn::Or(supported, hn::And(wanted, supported_by_cell(prior, band, grid, point.azimuth, elevation)));
+  }
+  return supported;
 }
 
 /// The lanes among the first `count` that `valid` holds for.
@@ -73,18 +91,13 @@ void ask_own_cells(const PreparedPrior& prior, const PointPlanes& points, const 
   const FloatTag d;
   const IntTag di;
   const std::size_t lanes = hn::Lanes(d);
-  const DirectionGridView grid = prior.index.grid.view();
   for (std::size_t i = 0; i < points.size; i += lanes) {
     const std::size_t count = std::min(lanes, points.size - i);
     const Coordinates p = moved(motion, points, i, count);
     const Floats horizontal = hn::Sqrt(hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y)));
     const Spherical s = spherical_of(p);
     const FloatMask is_valid = valid_lanes(valid + i, count);
-    FloatMask supported = hn::FirstN(d, 0);
-    if (prior.own_cell_is_inside) {
-      const CellLookup own = cells_of(grid, s.azimuth, s.elevation);
-      supported = hn::And(is_valid, supported_by_own_cell(prior, own, s.range));
-    }
+    const FloatMask supported = supported_at_once(prior, s, is_valid);
     constexpr auto kUnseen = static_cast<int>(Answer::unseen), kSupported = static_cast<int>(Answer::supported);
     const hn::Rebind<std::uint8_t, FloatTag> bytes;
     const Ints answer = hn::IfThenElse(hn::RebindMask(di, supported), hn::Set(di, kSupported), hn::Set(di, kUnseen));
@@ -143,7 +156,11 @@ RigidMotion::RigidMotion(const Pose& to_from) {
 }
 
 PreparedPrior::PreparedPrior(const PriorIndex::Impl& asked, const Thresholds& how)
-    : index(asked), thresholds(how), cone(how.angle_rad), own_cell_is_inside(cone.encloses_cell_of_axis(asked.grid)) {}
+    : index(asked),
+      thresholds(how),
+      cone(how.angle_rad),
+      own_cell_is_inside(cone.encloses_block_of_axis(asked.grid, 1.0)),
+      cells_above_and_below_are_inside(cone.encloses_block_of_axis(asked.grid, 2.0)) {}
 
 void ask_block(const PreparedPrior& prior, const PointPlanes& points, const std::uint8_t* valid,
                const RigidMotion& prior_from_points, Answer* answers) {

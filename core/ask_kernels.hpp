@@ -32,6 +32,7 @@ struct PreparedPrior {
   Thresholds thresholds;
   Cone cone;
   bool own_cell_is_inside;  ///< the cell of a point's direction lies inside of its cone, wherever in the cell that is
+  bool cells_above_and_below_are_inside;  ///< the same of those one row up and down
 };
 
 /// Answers for points whose `valid` is not 0; unseen for all others. Thread-safe.

@@ -29,9 +29,10 @@ class Cone {
         outer_haversine_(haversine(outer_rad_)),
         inner_haversine_(inner_rad_ > 0.0 ? haversine(inner_rad_) : -1.0) {}
 
-  /// True if a cell that holds the axis of the cone lies inside of it wherever the axis is in the cell.
-  bool encloses_cell_of_axis(const DirectionGrid& grid) const {
-    return std::numbers::sqrt2 * grid.cell_rad() <= inner_rad_;
+  /// True if the cone reaches, from wherever in its cell the axis is, all directions that are no farther from there
+  /// than one cell sideways and `rows` cells up or down.
+  bool encloses_block_of_axis(const DirectionGrid& grid, double rows) const {
+    return std::hypot(1.0, rows) * grid.cell_rad() <= inner_rad_;
   }
 
   /// Calls `visit(ConeRow)` for the rows that the cone around `axis` touches, from the lowest, until it returns false.

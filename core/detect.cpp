@@ -15,7 +15,7 @@ namespace {
 
 /// T_a as a multiple of the spacing of a sensor's shots: wide enough to have neighbours on every side of a direction
 /// also where the spacing varies.
-constexpr double kAnglePerSpacing = 1.5;
+constexpr double kAnglePerSpacing = 1.6;
 /// Used when nothing is known of a sensor's resolution.
 constexpr double kFallbackAngle_rad = std::numbers::pi / 180.0;
 

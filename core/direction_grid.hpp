@@ -40,7 +40,8 @@ struct DirectionGridView {
 };
 
 /// A partition of a band of the sphere into cells of nearly equal size: rows of one height, each cut into as many
-/// columns as keep a cell no wider than it is high. It has no seam (columns wrap around) and no crowded poles.
+/// columns as keep a cell no wider than it is high. It has no seam (columns wrap around) and no
+/// crowded poles.
 class DirectionGrid {
  public:
   DirectionGrid() = default;

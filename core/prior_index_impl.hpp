@@ -8,15 +8,15 @@
 
 namespace raywatch {
 
-/// A usable return in the sensor frame, with its range.
-struct alignas(16) Return {
-  float x_m, y_m, z_m, range_m;
+/// A usable return in the sensor frame.
+struct Return {
+  float x_m, y_m, z_m;
 };
 
 inline Direction direction_of(const Return& r) { return direction_of(r.x_m, r.y_m, r.z_m); }
 
-/// Upper bound of the relative error of a range in single precision, as `Return::range_m` and the bounds of cells have
-/// it. Decisions closer to a threshold than this are taken in double precision from the coordinates.
+/// Upper bound of the relative error of the bounds of cells, which are in single precision. Decisions closer to a
+/// threshold than this are taken in double precision from the coordinates.
 inline constexpr float kRangeError = 5e-7f;
 
 /// The usable returns, sorted by the cell of their direction; in a cell they keep the order of the scan.
