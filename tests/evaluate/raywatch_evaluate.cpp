@@ -120,6 +120,9 @@ void run(const Arguments& arguments) {
   tbb::task_arena arena(arguments.threads > 0 ? arguments.threads : tbb::task_arena::automatic);
   arena.execute([&] { add_places(arguments, evaluation); });
   const std::vector<TableRow> rows = table_rows(evaluation);
+  if (rows.empty()) {
+    throw InvalidInput("no scan has an earlier one of another state, older than the profile's contemporary tolerance");
+  }
   write_markdown(std::cout, rows);
   std::cout << '\n';
   write_markdown(std::cout, object_rows(evaluation));
