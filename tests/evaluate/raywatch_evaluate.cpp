@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "core/error.hpp"
+#include "tests/evaluate/error_study.hpp"
 #include "tests/evaluate/table.hpp"
 
 namespace raywatch::evaluation {
@@ -33,6 +34,7 @@ struct Arguments {
   bool defaults_only = false;
   std::size_t pairs = 24;
   std::string csv;
+  std::string pictures;
   int threads = 0;
 };
 
@@ -52,6 +54,8 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--pairs", arguments.pairs, "Single pairs that are compared of each place, at most")
       ->capture_default_str();
   app.add_option("--csv", arguments.csv, "Write the table to this file, too");
+  app.add_option("--pictures", arguments.pictures,
+                 "Write a picture of each kind of error that consensus makes into this folder");
   app.add_option("--threads", arguments.threads, "Threads; 0: as many as there are cores")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
@@ -91,10 +95,13 @@ Evaluation::Options options_of(const Arguments& arguments) {
   return options;
 }
 
-void add_places(const Arguments& arguments, Evaluation& evaluation) {
+void add_places(const Arguments& arguments, Evaluation& evaluation, ErrorStudy& errors) {
+  const CompareParameters consensus = default_parameters(evaluation.options().profile, Grouping::consensus);
   const auto add = [&](const Place& place) {
     std::cerr << place.name << ": " << place.scans.size() << " scans" << std::endl;
-    evaluation.add(IndexedPlace(place));
+    const IndexedPlace indexed(place);
+    evaluation.add(indexed);
+    errors.add(indexed, consensus);
   };
   for (const std::string& folder : arguments.folders) add(read_place(folder));
   if (arguments.family.empty()) return;
@@ -118,7 +125,8 @@ void run(const Arguments& arguments) {
   }
   Evaluation evaluation(options_of(arguments));
   tbb::task_arena arena(arguments.threads > 0 ? arguments.threads : tbb::task_arena::automatic);
-  arena.execute([&] { add_places(arguments, evaluation); });
+  ErrorStudy errors;
+  arena.execute([&] { add_places(arguments, evaluation, errors); });
   const std::vector<TableRow> rows = table_rows(evaluation);
   if (rows.empty()) {
     throw InvalidInput("no scan has an earlier one of another state, older than the profile's contemporary tolerance");
@@ -126,6 +134,9 @@ void run(const Arguments& arguments) {
   write_markdown(std::cout, rows);
   std::cout << '\n';
   write_markdown(std::cout, object_rows(evaluation));
+  std::cout << "\nErrors of consensus at the defaults, against several priors, with clusters:\n\n";
+  errors.causes.write_markdown(std::cout);
+  if (!arguments.pictures.empty()) errors.gallery.write(arguments.pictures);
   if (!arguments.csv.empty()) {
     std::ofstream out(arguments.csv);
     write_csv(out, title_of(arguments), rows);

@@ -3,26 +3,21 @@
 #include <numbers>
 
 namespace raywatch::evaluation {
-namespace {
-
-Thresholds thresholds_for(const ScanView& asked) {
+double testing_angle_rad(const ScanView& asked) {
   constexpr double kAnglePerSpacing = 1.5;
-  constexpr double kBehind_m = 0.05;
   constexpr double kFallbackSpacing_rad = std::numbers::pi / 180.0;
   const auto& resolution_rad = asked.sensor.angular_resolution_rad;
-  const double spacing_rad = resolution_rad ? resolution_rad->maxCoeff() : kFallbackSpacing_rad;
-  return {.angle_rad = kAnglePerSpacing * spacing_rad, .range_m = kBehind_m};
+  return kAnglePerSpacing * (resolution_rad ? resolution_rad->maxCoeff() : kFallbackSpacing_rad);
 }
 
-}  // namespace
-
 std::vector<std::uint8_t> testable_points(const ScanView& view, std::span<const ScanView> others) {
+  constexpr double kBehind_m = 0.05;
   const std::vector<std::uint8_t> all(view.points.size(), 1);
   std::vector<std::uint8_t> testable(view.points.size(), 0);
   std::vector<Answer> answers(view.points.size());
   for (const ScanView& other : others) {
     ask(other.index, view.points, all, other.world_from_sensor.inverse() * view.world_from_sensor,
-        thresholds_for(other), answers);
+        {testing_angle_rad(other), kBehind_m}, answers);
     for (std::size_t i = 0; i < answers.size(); ++i) {
       testable[i] |= answers[i] != Answer::unseen && answers[i] != Answer::occluded;
     }
