@@ -14,7 +14,7 @@ namespace {
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
 constexpr double kTogether_m = 1.0;
-constexpr double kHalfView_m = 2.0;
+constexpr double kHalfView_m = 1.5;
 
 /// The points of one scan of a case, as they were judged.
 struct Judged {
@@ -71,7 +71,7 @@ class Window {
   }
   /// Half the side of the square that stands for one shot.
   int half_shot(double spacing_rad) const {
-    return std::clamp(static_cast<int>(0.2 * kWidth * spacing_rad / half_width_rad_), 1, 12);
+    return std::clamp(static_cast<int>(0.25 * kWidth * spacing_rad / half_width_rad_), 1, 12);
   }
 
  private:

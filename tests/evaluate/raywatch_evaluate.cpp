@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "tests/evaluate/error_study.hpp"
+#include "tests/evaluate/plot.hpp"
 #include "tests/evaluate/table.hpp"
 
 namespace raywatch::evaluation {
@@ -34,6 +35,7 @@ struct Arguments {
   bool defaults_only = false;
   std::size_t pairs = 24;
   std::string csv;
+  std::string plots;
   std::string pictures;
   int threads = 0;
 };
@@ -54,6 +56,8 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--pairs", arguments.pairs, "Single pairs that are compared of each place, at most")
       ->capture_default_str();
   app.add_option("--csv", arguments.csv, "Write the table to this file, too");
+  app.add_option("--plot", arguments.plots,
+                 "Write plots of the grid into this folder: data, gnuplot scripts, and SVG when gnuplot is there");
   app.add_option("--pictures", arguments.pictures,
                  "Write a picture of each kind of error that consensus makes into this folder");
   app.add_option("--threads", arguments.threads, "Threads; 0: as many as there are cores")
@@ -114,6 +118,14 @@ void add_places(const Arguments& arguments, Evaluation& evaluation, ErrorStudy& 
   }
 }
 
+void plot(const Evaluation& evaluation, const std::string& folder) {
+  write_plots(evaluation, folder);
+  if (!draw_plots(folder)) {
+    std::cerr << "gnuplot is not there or failed: " << folder
+              << " holds data and scripts, but no SVG (Debian: gnuplot-nox)" << std::endl;
+  }
+}
+
 std::string title_of(const Arguments& arguments) {
   if (arguments.family.empty()) return arguments.folders.front();
   return arguments.family + (arguments.hard ? ", hard" : "");
@@ -122,6 +134,9 @@ std::string title_of(const Arguments& arguments) {
 void run(const Arguments& arguments) {
   if (arguments.family.empty() == arguments.folders.empty()) {
     throw InvalidInput("give either folders of labelled scans or --family");
+  }
+  if (!arguments.plots.empty() && arguments.defaults_only) {
+    throw InvalidInput("--plot shows the grid, which --defaults-only leaves out");
   }
   Evaluation evaluation(options_of(arguments));
   tbb::task_arena arena(arguments.threads > 0 ? arguments.threads : tbb::task_arena::automatic);
@@ -136,6 +151,7 @@ void run(const Arguments& arguments) {
   write_markdown(std::cout, object_rows(evaluation));
   std::cout << "\nErrors of consensus at the defaults, against several priors, with clusters:\n\n";
   errors.causes.write_markdown(std::cout);
+  if (!arguments.plots.empty()) plot(evaluation, arguments.plots);
   if (!arguments.pictures.empty()) errors.gallery.write(arguments.pictures);
   if (!arguments.csv.empty()) {
     std::ofstream out(arguments.csv);

@@ -31,6 +31,8 @@ void judge_flatness(const std::vector<Eigen::Vector3d>& returns, const Eigen::Ve
                     Surroundings& surroundings) {
   constexpr std::size_t kLeastReturns = 5;
   constexpr double kFlat_m = 0.05;
+  // Returns from before and behind an edge are spread out in every direction across their depth.
+  constexpr double kFlatShare = 0.1;
   if (returns.size() < kLeastReturns) return;
   Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : returns) mean_m += p / static_cast<double>(returns.size());
@@ -39,7 +41,8 @@ void judge_flatness(const std::vector<Eigen::Vector3d>& returns, const Eigen::Ve
     scatter += (p - mean_m) * (p - mean_m).transpose() / static_cast<double>(returns.size());
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter);
-  surroundings.flat = axes.eigenvalues()[0] < kFlat_m * kFlat_m;
+  const Eigen::Vector3d spread_m2 = axes.eigenvalues();
+  surroundings.flat = spread_m2[0] < kFlat_m * kFlat_m && spread_m2[0] < kFlatShare * spread_m2[1];
   const double cosine = std::abs(axes.eigenvectors().col(0).dot(point_m.normalized()));
   surroundings.incidence_rad = std::acos(std::min(cosine, 1.0));
 }

@@ -9,9 +9,10 @@ namespace raywatch::evaluation {
 
 /// What a scan returned around the direction of a point.
 struct Surroundings {
-  std::size_t nearer = 0;      ///< returns before the point by more than the margin
-  std::size_t farther = 0;     ///< returns behind it by more than the margin
-  bool flat = false;           ///< the returns lie in a plane, to within 5 cm (root mean square)
+  std::size_t nearer = 0;   ///< returns before the point by more than the margin
+  std::size_t farther = 0;  ///< returns behind it by more than the margin
+  bool flat =
+      false;  ///< the returns lie in a plane, to within 5 cm (root mean square) and much less than their spread in it
   double incidence_rad = 0.0;  ///< between the ray and the normal of that plane; 0..pi/2
 };
 
