@@ -78,6 +78,17 @@ SimulatedScan read_scan(const Path& folder, const nlohmann::json& entry) {
 
 void sort_by_time(Place& place) { std::ranges::stable_sort(place.scans, {}, &SimulatedScan::captured_at); }
 
+/// Comparisons carry places in single precision, for which map coordinates are too large.
+void move_near_origin(Place& place) {
+  constexpr double kFar_m = 10e3;
+  const Eigen::Vector3d origin_m = place.scans.front().reported_world_from_sensor.position_m.array().round();
+  if (origin_m.norm() <= kFar_m) return;
+  for (SimulatedScan& scan : place.scans) {
+    scan.reported_world_from_sensor.position_m -= origin_m;
+    scan.true_world_from_sensor.position_m -= origin_m;
+  }
+}
+
 }  // namespace
 
 Profile profile_of(simulator::Family family) {
@@ -122,6 +133,7 @@ Place read_place(const Path& folder) {
   }
   if (place.scans.size() < 2) throw InvalidInput(folder.string() + ": a comparison needs two scans or more");
   sort_by_time(place);
+  move_near_origin(place);
   return place;
 }
 

@@ -34,6 +34,7 @@ Place simulate_place(simulator::Family family, const simulator::FamilyOptions& o
 
 /// Reads a folder as `raywatch-simulate` writes it: `manifest.json`, and for each of its scans the file with its
 /// side-car and labels (EVALUATION.md says how to write them). The true poses are not needed.
+/// Map coordinates are moved near the origin.
 /// @throws InvalidInput naming the file, when the folder has no manifest, a scan has no labels or another number of
 /// them
 ///   than points, nothing says from where or when it was taken, or its file is broken.

@@ -64,9 +64,28 @@ TEST_CASE("a folder holds the same place as the memory, and the same table comes
   CHECK(points_of(evaluated(read)) == points_of(rows));
   REQUIRE(rows.size() == 24);
   CHECK(rows[0].data == "single pairs");
-  CHECK(rows[0].method == "union, best");
+  CHECK(rows[0].method == "union best");
   CHECK(rows[23].data == "several priors");
   CHECK(rows[23].method == "consensus");
+}
+
+TEST_CASE("a place in map coordinates gives the same table as at the origin") {
+  const TempDir scratch;
+  simulator::SceneFolder folder(scratch / "far");
+  const simulator::Timeline timeline = make_timeline(Family::lab, kTiny);
+  Place near = simulate_place(Family::lab, kTiny);
+  for (std::size_t i = 0; i < near.scans.size(); ++i) {
+    SimulatedScan far = near.scans[i];
+    far.reported_world_from_sensor.position_m += Eigen::Vector3d(400'000.0, 5'600'000.0, 300.0);
+    folder.add("scan_" + std::to_string(i), far);
+  }
+  folder.write_manifest(Family::lab, kTiny, timeline);
+  const std::vector<TableRow> far_rows = evaluated(read_place(scratch / "far"));
+  const std::vector<TableRow> near_rows = evaluated(near);
+  REQUIRE(far_rows.size() == near_rows.size());
+  for (std::size_t i = 0; i < far_rows.size(); ++i) {
+    CHECK(far_rows[i].points.both().f_score() == doctest::Approx(near_rows[i].points.both().f_score()).epsilon(0.02));
+  }
 }
 
 TEST_CASE("the best thresholds are at least as good as any other of the grid") {

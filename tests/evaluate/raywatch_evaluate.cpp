@@ -33,6 +33,7 @@ struct Arguments {
   std::uint32_t scans = 0;
   std::string profile;
   bool defaults_only = false;
+  Grid grid;
   std::size_t pairs = 24;
   std::string csv;
   std::string plots;
@@ -53,6 +54,15 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--profile", arguments.profile,
                  "indoor, outdoor or survey; not given: as suits the family, for folders indoor");
   app.add_flag("--defaults-only", arguments.defaults_only, "Do not look for the best thresholds of union");
+  app.add_option("--angles", arguments.grid.angle_per_spacing,
+                 "The grid's T_a, as multiples of the spacing of the shots")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--ranges", arguments.grid.range_m, "The grid's T_r in metres")
+      ->delimiter(',')
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_option("--pairs", arguments.pairs, "Single pairs that are compared of each place, at most")
       ->capture_default_str();
   app.add_option("--csv", arguments.csv, "Write the table to this file, too");
@@ -94,7 +104,7 @@ Evaluation::Options options_of(const Arguments& arguments) {
   } else if (!arguments.family.empty()) {
     options.profile = profile_of(simulator::parse_family(arguments.family));
   }
-  if (arguments.defaults_only) options.grid = {{}, {}};
+  options.grid = arguments.defaults_only ? Grid{{}, {}} : arguments.grid;
   options.most_pairs = arguments.pairs;
   return options;
 }
@@ -146,8 +156,9 @@ void run(const Arguments& arguments) {
   if (rows.empty()) {
     throw InvalidInput("no scan has an earlier one of another state, older than the profile's contemporary tolerance");
   }
+  std::cout << "Points:\n\n";
   write_markdown(std::cout, rows);
-  std::cout << '\n';
+  std::cout << "\nObjects, with clusters:\n\n";
   write_markdown(std::cout, object_rows(evaluation));
   std::cout << "\nErrors of consensus at the defaults, against several priors, with clusters:\n\n";
   errors.causes.write_markdown(std::cout);

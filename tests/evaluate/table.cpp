@@ -63,7 +63,10 @@ TableRow make_row(const Evaluation& evaluation, const Data& data, const char* me
   row.angle_per_spacing = setting.angle_per_spacing.value_or(0.0);
   row.angle_rad = setting.angle_per_spacing.value_or(kDefaultAnglePerSpacing) * evaluation.spacing_rad();
   row.range_m = setting.parameters.range_m;
-  if (choice.clustering) row.clustering = setting.clusterings[*choice.clustering];
+  if (choice.clustering) {
+    row.clustering = setting.clusterings[*choice.clustering];
+    row.objects = tally.score.clustered[*choice.clustering].objects;
+  }
   row.points = points_of(tally, choice);
   row.cases = tally.cases;
   row.detect_ms = tally.detect_ms / static_cast<double>(tally.cases);
@@ -109,7 +112,7 @@ std::vector<TableRow> table_rows(const Evaluation& evaluation) {
       const auto clustering = clusters ? std::optional<std::size_t>(0) : std::nullopt;
       if (tally_of(evaluation, data, Evaluation::kConsensus).cases == 0) continue;
       if (const auto best = best_choice(evaluation, data, clusters)) {
-        rows.push_back(make_row(evaluation, data, "union, best", *best));
+        rows.push_back(make_row(evaluation, data, "union best", *best));
       }
       rows.push_back(make_row(evaluation, data, "union", {Evaluation::kPublished, clustering}));
       rows.push_back(make_row(evaluation, data, "consensus", {Evaluation::kConsensus, clustering}));
@@ -124,7 +127,7 @@ std::vector<ObjectRow> object_rows(const Evaluation& evaluation) {
   std::vector<ObjectRow> rows;
   if (tally_of(evaluation, several, Evaluation::kConsensus).cases > 0) {
     if (const auto best = best_choice(evaluation, several, true)) {
-      rows.push_back(object_row(evaluation, several, "union, best", *best));
+      rows.push_back(object_row(evaluation, several, "union best", *best));
     }
     rows.push_back(object_row(evaluation, several, "union", {Evaluation::kPublished, 0}));
     rows.push_back(object_row(evaluation, several, "consensus", {Evaluation::kConsensus, 0}));
@@ -210,15 +213,22 @@ void write_csv(std::ostream& out, const std::string& name, const std::vector<Tab
       out << ',' << direction << '_' << column;
     }
   }
+  for (const char* column : {"real", "found", "once", "split", "merged", "false", "undecided"})
+    out << ",objects_" << column;
   out << '\n';
   for (const TableRow& row : rows) {
-    out << name << ',' << row.data << ',' << (row.clusters ? 1 : 0) << ",\"" << row.method << "\","
-        << row.angle_per_spacing << ',' << text("%.6f", degrees(row.angle_rad)) << ',' << row.range_m << ','
-        << row.clustering.distance_m << ',' << row.clustering.min_points << ',' << row.cases << ','
-        << text("%.3f", row.detect_ms) << ',' << text("%.0f", row.points_per_s);
+    out << name << ',' << row.data << ',' << (row.clusters ? 1 : 0) << ',' << row.method << ',' << row.angle_per_spacing
+        << ',' << text("%.6f", degrees(row.angle_rad)) << ',' << row.range_m << ',' << row.clustering.distance_m << ','
+        << row.clustering.min_points << ',' << row.cases << ',' << text("%.3f", row.detect_ms) << ','
+        << text("%.0f", row.points_per_s);
     write_counts(out, row.points.both());
     write_counts(out, row.points.added);
     write_counts(out, row.points.removed);
+    const ObjectCounts objects = row.objects.both();
+    for (const std::size_t count : {objects.real, objects.found, objects.once, objects.split, objects.merged,
+                                    objects.false_, objects.undecided}) {
+      out << ',' << count;
+    }
     out << '\n';
   }
 }

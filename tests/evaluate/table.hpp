@@ -11,13 +11,14 @@ namespace raywatch::evaluation {
 /// One line of the layout of Table II of Underwood et al. 2013, and what the project adds to it.
 struct TableRow {
   std::string data;    ///< "single pairs", "same pose", "other pose" or "several priors"
-  std::string method;  ///< "union, best", "union" or "consensus"
+  std::string method;  ///< "union best", "union" or "consensus"
   bool clusters = false;
   double angle_per_spacing = 0.0;  ///< T_a; 0: chosen by the program for each prior
   double angle_rad = 0.0;          ///< the same, at the places' mean spacing
   double range_m = 0.0;            ///< T_r
   Clustering clustering;
   Counts points;
+  ObjectScore objects;  ///< only with clusters
   std::size_t cases = 0;
   double detect_ms = 0.0;     ///< of one comparison
   double points_per_s = 0.0;  ///< asked points
