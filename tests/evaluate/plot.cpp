@@ -25,6 +25,7 @@ plot for [i=0:*] "grid.dat" index i using 2:5 with linespoints title columnheade
 set title "with clusters"
 plot for [i=0:*] "grid.dat" index i using 2:8 with linespoints title columnheader(1), \
      "consensus.dat" using 1:7 with points pointtype 7 pointsize 1.5 title "consensus"
+unset multiplot
 )";
 
 constexpr const char* kCurveScript = R"(set terminal svg size 900,500 background "white"
@@ -41,6 +42,7 @@ plot for [i=0:*] "grid.dat" index i using 4:3 with linespoints title columnheade
 set title "with clusters"
 plot for [i=0:*] "grid.dat" index i using 7:6 with linespoints title columnheader(1), \
      "consensus.dat" using 6:5 with points pointtype 7 pointsize 1.5 title "consensus"
+unset multiplot
 )";
 
 constexpr const char* kGridHead =
