@@ -138,7 +138,7 @@ void plot(const Evaluation& evaluation, const std::string& folder) {
 
 std::string title_of(const Arguments& arguments) {
   if (arguments.family.empty()) return arguments.folders.front();
-  return arguments.family + (arguments.hard ? ", hard" : "");
+  return arguments.family + (arguments.hard ? " hard" : "");
 }
 
 void run(const Arguments& arguments) {

@@ -56,12 +56,11 @@ std::optional<Choice> best_choice(const Evaluation& evaluation, const Data& data
 }
 
 TableRow make_row(const Evaluation& evaluation, const Data& data, const char* method, const Choice& choice) {
-  constexpr double kDefaultAnglePerSpacing = 1.5;
   const Setting& setting = evaluation.settings()[choice.setting];
   const Tally tally = tally_of(evaluation, data, choice.setting);
   TableRow row{.data = data.name, .method = method, .clusters = choice.clustering.has_value()};
   row.angle_per_spacing = setting.angle_per_spacing.value_or(0.0);
-  row.angle_rad = setting.angle_per_spacing.value_or(kDefaultAnglePerSpacing) * evaluation.spacing_rad();
+  row.angle_rad = row.angle_per_spacing * evaluation.spacing_rad();
   row.range_m = setting.parameters.range_m;
   if (choice.clustering) {
     row.clustering = setting.clusterings[*choice.clustering];

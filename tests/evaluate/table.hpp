@@ -14,7 +14,7 @@ struct TableRow {
   std::string method;  ///< "union best", "union" or "consensus"
   bool clusters = false;
   double angle_per_spacing = 0.0;  ///< T_a; 0: chosen by the program for each prior
-  double angle_rad = 0.0;          ///< the same, at the places' mean spacing
+  double angle_rad = 0.0;          ///< the same, at the places' mean spacing; 0 likewise
   double range_m = 0.0;            ///< T_r
   Clustering clustering;
   Counts points;
