@@ -3,45 +3,20 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <sstream>
 
+#include "tests/evaluate/plates.hpp"
 #include "tests/evaluate/score_case.hpp"
 #include "tests/evaluate/surroundings.hpp"
-#include "tests/simulator/scene.hpp"
 
 using namespace raywatch;
 using namespace raywatch::evaluation;
-using simulator::kBackground;
 using simulator::radians;
 
 namespace {
 
-constexpr StateId kCame = 1;
 const std::vector<Case> kOnePair{{Against::same_pose, 1, {0}}};
-
-/// A plate of 1 cm that stands across the x axis.
-struct Plate {
-  double x_m;
-  double side_m;
-  StateId state = kBackground;
-};
-
-/// A wall at 10 m with plates before it, seen from the origin with a shot every degree.
-SimulatedScan scan_of(const std::vector<Plate>& plates, int minute, double step_deg = 1.0) {
-  simulator::Scene scene;
-  scene.add(simulator::Plane{{10.0, 0.0, 0.0}, -Eigen::Vector3d::UnitX()});
-  for (const Plate& plate : plates) {
-    const Eigen::Vector3d half_m(0.005, 0.5 * plate.side_m, 0.5 * plate.side_m);
-    scene.add(simulator::Box{{Eigen::Quaterniond::Identity(), {plate.x_m + 0.005, 0.0, 0.0}}, half_m}, plate.state);
-  }
-  const simulator::Scanner scanner = simulator::grid_scanner(
-      {.step_rad = radians(step_deg), .lowest_elevation_rad = radians(-20.0), .highest_elevation_rad = radians(20.0)});
-  SimulatedScan scan = take_scan(simulator::RayCaster(scene), scanner, simulator::exact_plan({}));
-  scan.captured_at = Time{} + std::chrono::minutes(minute);
-  return scan;
-}
 
 /// The errors of a comparison that calls the points changed which `called` picks.
 template <class Called>
