@@ -67,6 +67,23 @@ TEST_CASE("every family tells a consistent story of change") {
   }
 }
 
+TEST_CASE("every labelled return lies on its object, seen from where the scan was truly taken") {
+  // Five standard deviations of the range noise, beams across edges, and slopes between the cells of the ground.
+  constexpr double kOff_m = 0.25;
+  for (const Family family : kFamilies) {
+    CAPTURE(std::string(to_string(family)));
+    const Timeline timeline = make_timeline(family, sparse(family, 3, true));
+    for (const Moment& moment : timeline.moments) {
+      const SimulatedScan scan = take_scan(timeline, moment);
+      for (std::size_t i = 0; i < scan.points.size(); ++i) {
+        if (scan.labels[i] == kBackground || scan.labels[i] == kNoSurface) continue;
+        const Eigen::Vector3d place_m = scan.true_world_from_sensor * scan.points[i].cast<double>();
+        REQUIRE(timeline.object(scan.labels[i]).box.exteriorDistance(place_m) < kOff_m);
+      }
+    }
+  }
+}
+
 TEST_CASE("the same seed gives the same scans, another one another place") {
   const auto scans = [](std::uint64_t seed) {
     return simulate(Family::lab, {.seed = seed, .hard = true, .density = 0.02, .scans = 2});

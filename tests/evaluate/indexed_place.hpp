@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/compare.hpp"
+#include "tests/evaluate/cases.hpp"
+
+namespace raywatch::evaluation {
+
+/// A case's scans as `compare` takes them.
+struct CaseViews {
+  ScanView scan;
+  std::vector<ScanView> priors;
+};
+
+/// A place with every scan indexed once, so that any number of thresholds can be tried. Immutable; the place must
+/// outlive it. What is known about each sensor is estimated from its scan, as the program does for files.
+class IndexedPlace {
+ public:
+  /// Runs in the caller's oneTBB arena.
+  explicit IndexedPlace(const Place& place);
+
+  const Place& place() const { return *place_; }
+  /// `union` filters no return by what was estimated about a sensor, `consensus` does.
+  CaseViews views(const Case& c, Grouping grouping) const;
+  /// The coarsest spacing of the shots of any scan: what T_a is a multiple of.
+  double spacing_rad() const { return spacing_rad_; }
+
+ private:
+  struct IndexedScan {
+    SensorModel sensor;
+    std::shared_ptr<const PriorIndex> all;     ///< every return
+    std::shared_ptr<const PriorIndex> usable;  ///< without what the sensor reports instead of "no return"
+  };
+  static IndexedScan index(const SimulatedScan& scan);
+  ScanView view(std::size_t scan, Grouping grouping) const;
+
+  const Place* place_;
+  std::vector<IndexedScan> scans_;
+  double spacing_rad_ = 0.0;
+};
+
+}  // namespace raywatch::evaluation

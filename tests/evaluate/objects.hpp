@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/compare.hpp"
+#include "tests/evaluate/score.hpp"
+
+/// How results are scored against the truth, object by object.
+namespace raywatch::evaluation {
+
+/// A real change counts when at least so many of its returns can be tested: of one that came those in the scan, of one
+/// that went those in the prior that has the most.
+inline constexpr std::size_t kLeastReturns = 15;
+/// A change with a smaller share of truly changed points is false.
+inline constexpr double kTrueShare = 0.2;
+
+/// Real changes, and what was made of them. A change shows an object when the object has a fifth of the change's
+/// points, or the change has half of the object's returns.
+struct ObjectCounts {
+  std::size_t real = 0;       ///< objects that came (or went) and can be tested
+  std::size_t found = 0;      ///< shown by at least one change
+  std::size_t once = 0;       ///< shown by exactly one, which shows no other object
+  std::size_t split = 0;      ///< shown by several
+  std::size_t merged = 0;     ///< shown together with another object
+  std::size_t false_ = 0;     ///< changes in which less than a fifth of the points truly changed
+  std::size_t undecided = 0;  ///< changes all of whose points lie on no surface
+
+  ObjectCounts& operator+=(const ObjectCounts& other);
+  friend bool operator==(const ObjectCounts&, const ObjectCounts&) = default;
+};
+
+struct ObjectScore {
+  ObjectCounts added, removed;
+  std::size_t comparisons = 0;
+
+  ObjectCounts both() const;
+  ObjectScore& operator+=(const ObjectScore& other);
+  friend bool operator==(const ObjectScore&, const ObjectScore&) = default;
+};
+
+/// The labels of a case's scans, its truth, and which of its points can be tested.
+struct CaseLabels {
+  const SimulatedScan* scan = nullptr;
+  std::vector<const SimulatedScan*> priors;
+  CaseTruth truth;
+  std::vector<std::uint8_t> testable_scan;                 ///< by a prior
+  std::vector<std::vector<std::uint8_t>> testable_priors;  ///< by the scan
+};
+
+ObjectScore count_objects(const Comparison& comparison, const CaseLabels& labels);
+
+}  // namespace raywatch::evaluation

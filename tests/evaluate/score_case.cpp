@@ -1,0 +1,53 @@
+#include "tests/evaluate/score_case.hpp"
+
+#include <algorithm>
+
+#include "server/stopwatch.hpp"
+#include "tests/evaluate/testable.hpp"
+
+namespace raywatch::evaluation {
+
+CaseScore& CaseScore::operator+=(const CaseScore& other) {
+  single += other.single;
+  clustered.resize(std::max(clustered.size(), other.clustered.size()));
+  for (std::size_t k = 0; k < other.clustered.size(); ++k) {
+    clustered[k].points += other.clustered[k].points;
+    clustered[k].objects += other.clustered[k].objects;
+  }
+  return *this;
+}
+
+CaseLabels labels_of(const IndexedPlace& place, const Case& c) {
+  CaseLabels labels;
+  labels.scan = &place.place().scans[c.scan];
+  for (const std::size_t prior : c.priors) labels.priors.push_back(&place.place().scans[prior]);
+  labels.truth = truth_of(*labels.scan, labels.priors);
+  const CaseViews views = place.views(c, Grouping::consensus);
+  labels.testable_scan = testable_points(views.scan, views.priors);
+  for (const ScanView& prior : views.priors) {
+    labels.testable_priors.push_back(testable_points(prior, std::span(&views.scan, 1)));
+  }
+  return labels;
+}
+
+TimedScore score_case(const IndexedPlace& place, const Case& c, const CaseLabels& labels,
+                      const CompareParameters& parameters, std::span<const Clustering> clusterings) {
+  const CaseViews views = place.views(c, parameters.grouping);
+  Stopwatch watch;
+  const Detection detection = detect(views.scan, views.priors, parameters);
+  TimedScore timed{.score = {}, .detect_ms = watch.lap_ms()};
+  CaseScore& score = timed.score;
+  score.single = count_points(verdicts_of(detection, views.priors), labels.truth);
+  for (const Clustering& clustering : clusterings) {
+    CompareParameters with = parameters;
+    with.clustering = true;
+    with.cluster_distance_m = clustering.distance_m;
+    with.cluster_min_points = clustering.min_points;
+    const Comparison comparison = form_changes(views.scan, views.priors, with, detection);
+    score.clustered.push_back(
+        {count_points(verdicts_of(comparison, views.priors), labels.truth), count_objects(comparison, labels)});
+  }
+  return timed;
+}
+
+}  // namespace raywatch::evaluation
