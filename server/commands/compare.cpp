@@ -40,7 +40,7 @@ struct Options {
   std::string grouping = "consensus", profile = "indoor";
   std::optional<double> angle_deg, range_m, support_distance_m, cluster_distance_m, min_range_m, max_range_m;
   std::optional<std::size_t> cluster_min_points;
-  bool no_cluster = false;
+  bool no_cluster = false, no_align = false;
   double contemporary_s = 0.0;
   int threads = 0;
   std::string output, removed_output;
@@ -61,6 +61,12 @@ CompareParameters parameters_of(const Options& options) {
   return p;
 }
 
+/// The published method takes poses as they are.
+std::optional<AlignParameters> align_parameters_of(const Options& options) {
+  if (options.no_align || parse_grouping(options.grouping) == Grouping::union_) return std::nullopt;
+  return AlignParameters{};
+}
+
 int compare_and_report(const Options& options) {
   Stopwatch total;
   for (const std::string& file : {options.output, options.removed_output}) {
@@ -68,7 +74,8 @@ int compare_and_report(const Options& options) {
   }
   const FileComparisonRequest request{.scan = options.scan,
                                       .priors = {options.priors.begin(), options.priors.end()},
-                                      .parameters = parameters_of(options)};
+                                      .parameters = parameters_of(options),
+                                      .align = align_parameters_of(options)};
   const FileComparison comparison = compare_files(request);
   Stopwatch write;
   if (!options.output.empty()) write_classes(options.output, comparison);
@@ -119,6 +126,8 @@ void add_compare(CLI::App& program, Run& run) {
   command->add_option("--cluster-min-points", options->cluster_min_points,
                       "Changes of at most so many points are noise");
   command->add_flag("--no-cluster", options->no_cluster, "Report every changed point");
+  command->add_flag("--no-align", options->no_align,
+                    "Take all poses as given; else a consensus fits each prior to NEW");
   command->add_option("--min-range-m", options->min_range_m, "Nearer returns are ignored")->check(CLI::Range(0.0, 1e9));
   command->add_option("--max-range-m", options->max_range_m, "Farther returns are ignored")
       ->check(CLI::Range(0.0, 1e9));
