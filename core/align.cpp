@@ -4,20 +4,17 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/align_evidence.hpp"
 #include "core/align_sample.hpp"
 #include "core/names.hpp"
 #include "core/plane_patch.hpp"
 
 namespace raywatch {
 namespace {
-
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr Names<RegistrationState, 4> kStates{{{RegistrationState::none, "none"},
                                                {RegistrationState::good, "good"},
@@ -32,14 +29,13 @@ constexpr double kStepEnd_rad = 2e-6;
 /// half of it in each further iteration, until the noise decides.
 constexpr double kFirstBlur_m = 0.1;
 constexpr double kLastBlur_m = 0.0005;
-/// Distances beyond this many deviations have no weight (Tukey); beyond this many, surfaces do not agree.
+/// Distances beyond this many deviations have no weight (Tukey).
 constexpr double kTukey = 4.7;
+/// Surfaces farther apart than this many deviations do not agree.
 constexpr double kAgree = 3.5;
 /// The distances of a good fit may spread by this much more than the noise says.
 constexpr double kMostSpread = 3.0;
-/// A motion of which the evidence has less than this share is not fixed by the scene, nor is one that it leaves as
-/// uncertain as this share of what a pose may be off.
-constexpr double kLeastInformation = 5e-4;
+/// A motion that stays more uncertain than this share of what a pose may be off is not fixed by the scene.
 constexpr double kMostUncertainty = 0.2;
 /// Of a direction that a smaller share of the surfaces faces, their agreement is not asked: one car that drove away is
 /// no bad registration.
@@ -50,24 +46,9 @@ constexpr double kLeastObjections = 8.0;
 constexpr double kObjection = 0.25;
 /// Pieces of surface whose normals differ by more than 30 degrees are not the same.
 constexpr double kSameNormal_cosine = 0.866;
-/// Neighbouring pieces share returns, and errors of a scanner are alike in one region: so many count as one.
-constexpr double kAlikePieces = 4.0;
 /// What the surfaces of two scans differ by besides their noise.
 constexpr double kModelError_m = 0.002;
 constexpr double kModelError_per_m = 1e-4;
-
-/// How a piece of the scan's surface stands to what a reference shows there.
-struct Row {
-  enum class Kind : std::uint8_t { unseen, hidden, contradicts, comparable };
-  Kind kind = Kind::unseen;
-  double distance_m = 0.0;  ///< from the reference's surface, towards the reference's sensor
-  double sigma_m = 1.0;     ///< of the distance
-  Vector6 motion;           ///< change of the distance with a motion of the scan about its sensor: shift, turn
-  Vector6 own_motion;       ///< the same by the scan's own normal, whose errors are others
-
-  double deviations(double blur_m) const { return distance_m / sigma_with(blur_m); }
-  double sigma_with(double blur_m) const { return std::hypot(sigma_m, blur_m); }
-};
 
 /// The pieces of surface of one reference, kept from one iteration to the next as long as the direction is the same.
 struct Remembered {
@@ -85,31 +66,6 @@ double tukey_weight(double deviations, double spread) {
   const double u = deviations / (kTukey * spread);
   return std::abs(u) >= 1.0 ? 0.0 : (1.0 - u * u) * (1.0 - u * u);
 }
-
-/// The evidence about the six directions of motion, turns scaled by the size of the scene so that all are lengths.
-struct Information {
-  Matrix6 normal = Matrix6::Zero();    ///< J^T W J
-  Matrix6 unbiased = Matrix6::Zero();  ///< the same with two normals of independent errors, which leave no trace in it
-  Vector6 gradient = Vector6::Zero();
-  double weight = 0.0;
-
-  void add(const Row& row, double w, const Vector6& scale) {
-    const Vector6 j = row.motion.cwiseProduct(scale), own = row.own_motion.cwiseProduct(scale);
-    normal += w * j * j.transpose();
-    unbiased += 0.5 * w * (j * own.transpose() + own * j.transpose());
-    gradient += w * row.distance_m * j;
-    weight += w;
-  }
-  /// A base of the motions that the scene fixes, one a column.
-  Eigen::MatrixXd fixed_motions(const PoseUncertainty& tolerance) const {
-    const double sigma_m = kMostUncertainty * tolerance.position_m;
-    const double least = std::max(kLeastInformation * weight, kAlikePieces / (sigma_m * sigma_m));
-    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(unbiased);
-    Eigen::Index first = 0;
-    while (first < 6 && solver.eigenvalues()[first] < least) ++first;
-    return solver.eigenvectors().rightCols(6 - first);
-  }
-};
 
 /// One scan's fitting; its steps in the order in which `run` goes through them.
 class Fitting {
@@ -198,7 +154,7 @@ class Fitting {
       const double sigma_m = row.sigma_with(blur_m_);
       information.add(row, tukey_weight(row.distance_m / sigma_m, spread_now) / (sigma_m * sigma_m), scale_);
     }
-    const Eigen::MatrixXd fixed = information.fixed_motions(parameters_.tolerance);
+    const Eigen::MatrixXd fixed = information.fixed_motions(most_sigma_m());
     if (fixed.cols() == 0) return true;
     const Eigen::MatrixXd normal = fixed.transpose() * information.normal * fixed;
     const Eigen::VectorXd along = normal.ldlt().solve(-fixed.transpose() * information.gradient);
@@ -248,45 +204,16 @@ class Fitting {
     result.inliers = static_cast<double>(result.matches) / static_cast<double>(seen);
     if (result.matches > 0) result.residual_m = std::sqrt(squares_m2 / static_cast<double>(result.matches));
     result.agreement = least_agreement(faced_agreeing, faced, kLeastEvidence * faced.trace());
-    const Eigen::MatrixXd fixed = agreeing.fixed_motions(parameters_.tolerance);
+    const Eigen::MatrixXd fixed = agreeing.fixed_motions(most_sigma_m());
     result.free_directions = static_cast<std::size_t>(6 - fixed.cols());
-    result.uncertainty = uncertainty(agreeing, fixed);
+    result.uncertainty = agreeing.uncertainty({fixed, scale_, spread(), parameters_.reported});
     const double objected = least_agreement(faced_agreeing, faced, kLeastObjections);
     if (result.free_directions > 0 && objected < kObjection) result.agreement = std::min(result.agreement, objected);
     decide(settled, result);
     return result;
   }
 
-  /// Of the directions that enough of the surfaces face, the one in which the smallest share of them agrees: a floor
-  /// that agrees does not outvote walls that do not.
-  static double least_agreement(const Eigen::Matrix3d& agreeing, const Eigen::Matrix3d& all, double enough) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> base(all);
-    Eigen::Index first = 0;
-    while (first < 3 && base.eigenvalues()[first] < enough) ++first;
-    if (first == 3) return 1.0;
-    const Eigen::MatrixXd faced = base.eigenvectors().rightCols(3 - first);
-    const Eigen::MatrixXd whole = faced.transpose() * all * faced, part = faced.transpose() * agreeing * faced;
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(part, whole, Eigen::EigenvaluesOnly);
-    return solver.info() == Eigen::Success ? std::clamp(solver.eigenvalues()[0], 0.0, 1.0) : 0.0;
-  }
-
-  /// From the distances that are left and how often they were measured; what is not fixed is as uncertain as before.
-  PoseUncertainty uncertainty(const Information& agreeing, const Eigen::MatrixXd& fixed) const {
-    const double spread_now = spread();
-    Matrix6 covariance = Matrix6::Zero();
-    if (fixed.cols() > 0) {
-      const Eigen::MatrixXd normal = fixed.transpose() * agreeing.normal * fixed;
-      covariance = kAlikePieces * spread_now * spread_now * fixed * normal.inverse() * fixed.transpose();
-    }
-    covariance = scale_.asDiagonal() * covariance * scale_.asDiagonal();
-    const Matrix6 known = fixed * fixed.transpose();
-    for (Eigen::Index i = 0; i < 6; ++i) {
-      const double prior = i < 3 ? parameters_.reported.position_m : parameters_.reported.angle_rad;
-      covariance(i, i) += std::max(0.0, 1.0 - known(i, i)) * prior * prior;
-    }
-    return {std::sqrt(covariance.diagonal().head<3>().maxCoeff()),
-            std::sqrt(covariance.diagonal().tail<3>().maxCoeff())};
-  }
+  double most_sigma_m() const { return kMostUncertainty * parameters_.tolerance.position_m; }
 
   double nearest_reference_m() const {
     double nearest_m = std::numeric_limits<double>::infinity();

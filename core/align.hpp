@@ -56,6 +56,11 @@ struct Alignment {
   PoseUncertainty uncertainty;      ///< of the corrected pose relative to the references
 };
 
+/// Whether a comparison refines poses: the published method takes them as they are.
+inline bool refines_poses(const CompareParameters& parameters) {
+  return parameters.align && parameters.grouping == Grouping::consensus;
+}
+
 /// How far a correction moves a sensor, and by what angle it turns it.
 PoseUncertainty size_of(const Pose& correction, const Pose& reported);
 

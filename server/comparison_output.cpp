@@ -87,7 +87,8 @@ Json parameters_json(const CompareParameters& p) {
           {"cluster_min_points", p.cluster_min_points},
           {"min_range_m", p.min_range_m},
           {"max_range_m", p.max_range_m},
-          {"contemporary_s", std::chrono::duration<double>(p.contemporary_tolerance).count()}};
+          {"contemporary_s", std::chrono::duration<double>(p.contemporary_tolerance).count()},
+          {"align", p.align}};
 }
 
 Json registration_json(const FileRegistration& registration, const Eigen::Vector3d& origin_m) {

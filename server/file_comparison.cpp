@@ -86,8 +86,8 @@ std::vector<Time> capture_times(const std::vector<FileScan>& scans, Duration tol
 }
 
 AlignedPriors aligned_priors(const ScanView& scan, std::span<const ScanView> priors,
-                             const std::optional<AlignParameters>& parameters) {
-  if (parameters) return align_priors(scan, priors, *parameters);
+                             const CompareParameters& parameters) {
+  if (refines_poses(parameters)) return align_priors(scan, priors, {});
   AlignedPriors as_given{.alignments = std::vector<Alignment>(priors.size()),
                          .usable = {priors.begin(), priors.end()},
                          .places = std::vector<std::uint32_t>(priors.size()),
@@ -126,7 +126,7 @@ FileComparison compare_files(const FileComparisonRequest& request) {
     views.push_back({scans[i].points, indexed[i].index, scans[i].world_from_sensor, times[i], indexed[i].sensor});
   }
   const ScanView& scan = views.front();
-  const AlignedPriors aligned = aligned_priors(scan, std::span(views).subspan(1), request.align);
+  const AlignedPriors aligned = aligned_priors(scan, std::span(views).subspan(1), request.parameters);
   done.timings.align_ms = watch.lap_ms();
 
   Detection detection = detect(scan, aligned.usable, request.parameters);
@@ -136,7 +136,7 @@ FileComparison compare_files(const FileComparisonRequest& request) {
   restore_places(aligned, done.result);
   done.timings.cluster_ms = watch.lap_ms();
 
-  if (request.align) done.registrations = apply_corrections(aligned, std::span(scans).subspan(1));
+  if (refines_poses(request.parameters)) done.registrations = apply_corrections(aligned, std::span(scans).subspan(1));
   done.scan = std::move(scans.front());
   done.priors.assign(std::make_move_iterator(scans.begin() + 1), std::make_move_iterator(scans.end()));
   return done;

@@ -18,8 +18,6 @@ struct FileComparisonRequest {
   std::filesystem::path scan;
   std::vector<std::filesystem::path> priors;
   CompareParameters parameters;
-  /// How the priors are fitted onto the scan; not given: all poses are taken as they are.
-  std::optional<AlignParameters> align;
 };
 
 /// A scan file in memory. The pose is relative to `FileComparison::origin_m`.

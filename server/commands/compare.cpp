@@ -51,6 +51,7 @@ CompareParameters parameters_of(const Options& options) {
   if (options.angle_deg) p.angle_rad = *options.angle_deg * std::numbers::pi / 180.0;
   p.range_m = options.range_m.value_or(p.range_m);
   p.support_distance_m = options.support_distance_m.value_or(p.support_distance_m);
+  p.align = p.align && !options.no_align;
   p.clustering = p.clustering && !options.no_cluster;
   p.cluster_distance_m = options.cluster_distance_m.value_or(p.cluster_distance_m);
   p.cluster_min_points = options.cluster_min_points.value_or(p.cluster_min_points);
@@ -61,12 +62,6 @@ CompareParameters parameters_of(const Options& options) {
   return p;
 }
 
-/// The published method takes poses as they are.
-std::optional<AlignParameters> align_parameters_of(const Options& options) {
-  if (options.no_align || parse_grouping(options.grouping) == Grouping::union_) return std::nullopt;
-  return AlignParameters{};
-}
-
 int compare_and_report(const Options& options) {
   Stopwatch total;
   for (const std::string& file : {options.output, options.removed_output}) {
@@ -74,8 +69,7 @@ int compare_and_report(const Options& options) {
   }
   const FileComparisonRequest request{.scan = options.scan,
                                       .priors = {options.priors.begin(), options.priors.end()},
-                                      .parameters = parameters_of(options),
-                                      .align = align_parameters_of(options)};
+                                      .parameters = parameters_of(options)};
   const FileComparison comparison = compare_files(request);
   Stopwatch write;
   if (!options.output.empty()) write_classes(options.output, comparison);
