@@ -171,6 +171,9 @@ void answer_request(const ExchangeContext& context, const httplib::Request& requ
     answer.set_header("Connection", "close");
   }
   context.statistics.count(answer.status);
+  if (answer.status == 500 && context.services.report) {
+    context.services.report(request.method + " " + request.path + " failed: " + answer.body);
+  }
   fill_response(request, std::move(answer), response);
 }
 

@@ -27,7 +27,8 @@ Json render_parameters(const CompareParameters& parameters) {
           {"cluster_min_points", parameters.cluster_min_points},
           {"min_range_m", parameters.min_range_m},
           {"max_range_m", parameters.max_range_m},
-          {"contemporary_s", seconds_of(parameters.contemporary_tolerance)}};
+          {"contemporary_s", seconds_of(parameters.contemporary_tolerance)},
+          {"align", parameters.align}};
 }
 
 Json render_priors(const std::vector<ComparisonPrior>& priors) {

@@ -1,14 +1,26 @@
 #include "api/lookup.hpp"
 #include "api/render.hpp"
+#include "api/units.hpp"
 
 namespace raywatch {
 namespace {
 
-Json render_registration(const Registration& registration) {
-  return {{"state", registration.state},
+Json render_registration(const ScanRecord& scan) {
+  const Registration& registration = scan.registration;
+  const PoseUncertainty size = size_of(registration.correction, scan.pose);
+  Json uncertainty;
+  if (registration.uncertainty) {
+    uncertainty = {{"position_m", registration.uncertainty->position_m},
+                   {"angle_deg", deg_of_radians(registration.uncertainty->angle_rad)}};
+  }
+  return {{"state", to_string(registration.state)},
           {"correction", render(registration.correction)},
+          {"shift_m", size.position_m},
+          {"turn_deg", deg_of_radians(size.angle_rad)},
           {"residual_m", json_or_null(registration.residual_m)},
-          {"against", registration.against ? Json(registration.against->value) : Json(nullptr)}};
+          {"inliers", json_or_null(registration.inliers)},
+          {"against", registration.against ? Json(registration.against->value) : Json(nullptr)},
+          {"uncertainty", uncertainty}};
 }
 
 Json render_comparisons(const std::vector<ComparisonRecord>& comparisons) {
@@ -44,7 +56,7 @@ Json render(const Snapshot& snapshot, const ScanRecord& scan) {
           {"sha256", scan.sha256},
           {"stored_bytes", scan.stored_bytes},
           {"pose", render(scan.pose)},
-          {"registration", render_registration(scan.registration)},
+          {"registration", render_registration(scan)},
           {"pinned", scan.pinned},
           {"note", scan.note},
           {"state", to_string(scan.state)},

@@ -60,6 +60,7 @@ struct Services {
   Commands commands;
   std::function<DaemonStatus()> status;
   std::function<Time()> now;
+  std::function<void(const std::string&)> report = {};  ///< takes note of a request that failed by the daemon's fault
 };
 
 }  // namespace raywatch

@@ -27,7 +27,7 @@ bool has_near_return(const PriorIndex::Impl& prior, const Eigen::Vector3d& point
     if (prior.least_m[cell] > range_m + distance_m + rounding_m) return true;
     if (prior.greatest_m[cell] < range_m - distance_m - rounding_m) return true;
     for (std::uint32_t i = prior.first[cell]; i < prior.first[cell + 1] && !found; ++i) {
-      const Eigen::Vector3d p(prior.returns[i].x_m, prior.returns[i].y_m, prior.returns[i].z_m);
+      const Eigen::Vector3d p = point_of(prior.returns[i]);
       found = (p - point_m).squaredNorm() < distance_m * distance_m;
     }
     return !found;

@@ -79,7 +79,9 @@ std::vector<CandidateAssessment> choose_priors(std::span<const Eigen::Vector3d> 
     assessment.age = captured_at - candidates[c].captured_at;
     assessment.overlap =
         share(static_cast<std::size_t>(std::count(covers[c].begin(), covers[c].end(), 1)), sample_m.size());
-    if (assessment.overlap < parameters.min_overlap) {
+    if (!candidates[c].refused.empty()) {
+      assessment.reason = candidates[c].refused;
+    } else if (assessment.overlap < parameters.min_overlap) {
       assessment.reason = "too little overlap: " + percent(assessment.overlap) + " of the scan's points, " +
                           percent(parameters.min_overlap) + " needed";
     }

@@ -19,7 +19,8 @@ struct PriorCandidate {
   Pose world_from_sensor;
   Time captured_at;
   Panorama coverage;
-  bool required = false;  ///< asked for by name (an explicit reference): chosen unless it overlaps nowhere
+  bool required = false;     ///< asked for by name (an explicit reference): chosen unless it overlaps nowhere
+  std::string refused = {};  ///< why it must not be chosen; empty: it may be
 };
 
 /// What was found about a candidate.

@@ -62,6 +62,8 @@ struct CompareParameters {
   double min_range_m = 0.0;
   double max_range_m = 1e9;
   Duration contemporary_tolerance = Duration::zero();
+  /// In a consensus, poses are refined before anything is asked (core/align.hpp); else they are taken as reported.
+  bool align = true;
 };
 
 /// One scan as it takes part in a comparison. Everything that is referred to must outlive the call.

@@ -75,4 +75,12 @@ bool covers(const Panorama& panorama, const Pose& sensor_from_world, const Eigen
   return seen_m > 0.0 && local_m.norm() <= seen_m * (1.0 + kBehind) + kBehind;
 }
 
+double reach_m(const Panorama& panorama) {
+  double farthest_m = 0.0;
+  for (std::size_t cell = 0; cell < panorama.farthest.size(); ++cell) {
+    farthest_m = std::max(farthest_m, panorama.range_m(cell));
+  }
+  return farthest_m;
+}
+
 }  // namespace raywatch

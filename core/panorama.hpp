@@ -35,4 +35,7 @@ Panorama panorama_from_bytes(std::span<const std::uint8_t> bytes);
 /// True if a point (world) lies in a direction that was covered and not far behind what was seen there.
 bool covers(const Panorama& panorama, const Pose& sensor_from_world, const Eigen::Vector3d& point_m);
 
+/// The farthest that the scan saw.
+double reach_m(const Panorama& panorama);
+
 }  // namespace raywatch

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 
 #include "core/direction_grid.hpp"
@@ -13,6 +14,7 @@ struct Return {
   float x_m, y_m, z_m;
 };
 
+inline Eigen::Vector3d point_of(const Return& r) { return {r.x_m, r.y_m, r.z_m}; }
 inline Direction direction_of(const Return& r) { return direction_of(r.x_m, r.y_m, r.z_m); }
 
 /// Upper bound of the relative error of the bounds of cells, which are in single precision. Decisions closer to a

@@ -30,7 +30,10 @@ CompareParameters default_parameters(Profile profile, Grouping grouping) {
   CompareParameters parameters;
   parameters.grouping = grouping;
   parameters.contemporary_tolerance = contemporary_tolerance(profile);
-  if (grouping == Grouping::union_) return parameters;
+  if (grouping == Grouping::union_) {
+    parameters.align = false;
+    return parameters;
+  }
   switch (profile) {
     case Profile::indoor:
       parameters.support_distance_m = 0.08;

@@ -87,17 +87,37 @@ Json parameters_json(const CompareParameters& p) {
           {"cluster_min_points", p.cluster_min_points},
           {"min_range_m", p.min_range_m},
           {"max_range_m", p.max_range_m},
-          {"contemporary_s", std::chrono::duration<double>(p.contemporary_tolerance).count()}};
+          {"contemporary_s", std::chrono::duration<double>(p.contemporary_tolerance).count()},
+          {"align", p.align}};
 }
 
-Json priors_json(const FileComparisonRequest& request, const Comparison& result) {
+Json registration_json(const FileRegistration& registration, const Eigen::Vector3d& origin_m) {
+  const Alignment& found = registration.alignment;
+  const Pose correction = with_origin(found.correction, origin_m);
+  return {{"state", to_string(found.state)},
+          {"correction",
+           {{"position_m", to_array(correction.position_m)}, {"orientation_xyzw", to_array(correction.orientation)}}},
+          {"shift_m", registration.size.position_m},
+          {"turn_deg", registration.size.angle_rad / kDegree},
+          {"residual_m", found.state == RegistrationState::none ? Json(nullptr) : Json(found.residual_m)},
+          {"inliers", found.inliers},
+          {"uncertainty",
+           {{"position_m", found.uncertainty.position_m}, {"angle_deg", found.uncertainty.angle_rad / kDegree}}}};
+}
+
+Json priors_json(const FileComparisonRequest& request, const FileComparison& comparison) {
+  const Comparison& result = comparison.result;
   Json priors = Json::array();
   for (std::size_t i = 0; i < result.priors.size(); ++i) {
     const PriorShare& share = result.priors[i];
+    const Json registration = comparison.registrations.empty()
+                                  ? Json(nullptr)
+                                  : registration_json(comparison.registrations[i], comparison.origin_m);
     priors.push_back({{"file", request.priors[i].string()},
                       {"added", share.added},
                       {"removed", share.removed},
-                      {"angle_deg", share.angle_rad / kDegree}});
+                      {"angle_deg", share.angle_rad / kDegree},
+                      {"registration", registration}});
   }
   return priors;
 }
@@ -165,7 +185,7 @@ std::string to_json(const FileComparisonRequest& request, const FileComparison& 
   }
   const Json json = {{"scan", request.scan.string()},
                      {"parameters", parameters_json(request.parameters)},
-                     {"priors", priors_json(request, result)},
+                     {"priors", priors_json(request, comparison)},
                      {"counts", counts},
                      {"testable", result.testable},
                      {"changes", changes},
@@ -173,6 +193,7 @@ std::string to_json(const FileComparisonRequest& request, const FileComparison& 
                      {"timings_ms",
                       {{"read", comparison.timings.read_ms},
                        {"index", comparison.timings.index_ms},
+                       {"align", comparison.timings.align_ms},
                        {"detect", comparison.timings.detect_ms},
                        {"cluster", comparison.timings.cluster_ms},
                        {"write", write_ms},

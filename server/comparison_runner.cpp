@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,12 +12,10 @@
 #include "core/compare.hpp"
 #include "core/error.hpp"
 #include "core/panorama.hpp"
-#include "core/sensor.hpp"
 #include "server/reference_resolver.hpp"
 #include "server/stopwatch.hpp"
 #include "server/unowned_payloads.hpp"
 #include "storage/payloads.hpp"
-#include "storage/sensors.hpp"
 #include "storage/sites.hpp"
 
 namespace raywatch {
@@ -26,15 +25,6 @@ template <class T>
 T existing(std::optional<T> found, const char* what) {
   if (!found) throw NotFound(std::string("the ") + what + " does not exist any more");
   return std::move(*found);
-}
-
-/// The farthest that a scan saw.
-double reach_m(const Panorama& panorama) {
-  double farthest_m = 0.0;
-  for (std::size_t cell = 0; cell < panorama.farthest.size(); ++cell) {
-    farthest_m = std::max(farthest_m, panorama.range_m(cell));
-  }
-  return farthest_m;
 }
 
 /// The entry of a comparison that runs, on the board as long as it does.
@@ -62,6 +52,13 @@ ComparisonCandidate candidate_record(const ScanRecord& scan, const CandidateAsse
           .reason = assessment.reason};
 }
 
+void log_registration(const ScanRecord& scan, const ComparisonResult& result) {
+  if (!result.registration) return;
+  const RegistrationState state = result.registration->state;
+  if (state != RegistrationState::moved && state != RegistrationState::bad) return;
+  spdlog::warn("scan {}: registration {}: {}", scan.id.value, to_string(state), result.warnings.front());
+}
+
 }  // namespace
 
 /// What a job is about.
@@ -69,16 +66,6 @@ struct ComparisonRunner::Subject {
   ComparisonRecord comparison;
   ScanRecord scan;
   Site site;
-};
-
-/// A scan that takes part.
-struct ComparisonRunner::Loaded {
-  std::shared_ptr<const IndexedScan> indexed;
-  Pose world_from_sensor;  ///< local
-  Time captured_at;
-  SensorModel sensor;
-
-  ScanView view() const { return {indexed->points, indexed->index, world_from_sensor, captured_at, sensor}; }
 };
 
 /// The scans that were offered, and what was found about each.
@@ -89,29 +76,39 @@ struct ComparisonRunner::Choice {
 
 ComparisonRunner::ComparisonRunner(Store& store, IndexCache& cache, ProgressBoard& progress,
                                    const ComparisonRunnerConfig& config, std::function<Time()> now)
-    : store_(store), cache_(cache), progress_(progress), config_(config), now_(std::move(now)) {}
+    : store_(store),
+      loader_(store, cache),
+      registrar_(store, loader_, config.registrar),
+      progress_(progress),
+      config_(config),
+      now_(std::move(now)) {}
 
 void ComparisonRunner::run(const Job& job, tbb::task_arena& arena) {
   Stopwatch watch;
   Progress progress(progress_, job.comparison);
   ComparisonResult result;
 
-  const Subject subject = read_subject(job);
-  const Loaded scan = load(subject.scan, subject, arena);
+  Subject subject = read_subject(job);
+  const CompareParameters& parameters = subject.comparison.parameters;
+  LoadedScan scan = loader_.load(subject.scan, subject.site, parameters, arena);
   double load_ms = watch.lap_ms();
+  progress.set(0.05);
+
+  register_scan(subject, scan, arena, result);
+  result.timings_ms["align"] = watch.lap_ms();
   progress.set(0.1);
 
   const Choice choice = choose(subject, scan);
   result.timings_ms["choose"] = watch.lap_ms();
   progress.set(0.2);
 
-  std::vector<Loaded> priors;
+  std::vector<LoadedScan> priors;
   for (std::size_t i = 0; i < choice.offered.size(); ++i) {
     const ScanRecord& offered = choice.offered[i];
     const CandidateAssessment& assessment = choice.assessments[i];
     result.candidates.push_back(candidate_record(offered, assessment));
     if (!assessment.chosen) continue;
-    priors.push_back(load(offered, subject, arena));
+    priors.push_back(loader_.load(offered, subject.site, parameters, arena));
     result.priors.push_back({.scan = offered.id, .vantage = offered.vantage, .overlap = assessment.overlap});
   }
   load_ms += watch.lap_ms();
@@ -119,8 +116,7 @@ void ComparisonRunner::run(const Job& job, tbb::task_arena& arena) {
   progress.set(0.5);
 
   std::vector<ScanView> views;
-  for (const Loaded& prior : priors) views.push_back(prior.view());
-  const CompareParameters& parameters = subject.comparison.parameters;
+  for (const LoadedScan& prior : priors) views.push_back(prior.view());
   Detection detection = arena.execute([&] { return detect(scan.view(), views, parameters); });
   result.timings_ms["detect"] = watch.lap_ms();
   progress.set(0.8);
@@ -138,7 +134,7 @@ void ComparisonRunner::run(const Job& job, tbb::task_arena& arena) {
   std::ranges::copy(comparison.counts, result.counts.begin());
   result.testable = comparison.testable;
   result.changes = std::move(comparison.changes);
-  result.warnings = std::move(comparison.warnings);
+  std::ranges::move(comparison.warnings, std::back_inserter(result.warnings));
   commit(job, subject, std::move(result),
          {std::move(comparison.classes), std::move(comparison.free), std::move(comparison.supported),
           std::move(comparison.change_of), std::move(comparison.prior_points)});
@@ -151,21 +147,23 @@ ComparisonRunner::Subject ComparisonRunner::read_subject(const Job& job) const {
   });
 }
 
-ComparisonRunner::Loaded ComparisonRunner::load(const ScanRecord& scan, const Subject& subject,
-                                                tbb::task_arena& arena) {
-  const Sensor sensor = store_.read(
-      [&](const Snapshot& snapshot) { return existing(find_sensor(snapshot, scan.sensor), "sensor of the scan"); });
-  const SensorModel model = merged(sensor.known, scan.estimated);
-  const UsableRange usable = usable_range(model, subject.comparison.parameters);
-  const auto build = [&]() -> IndexedScan {
-    PointCloud points = store_.payloads().scan_points(scan.payload);
-    PriorIndex index = arena.execute([&] { return PriorIndex::build(points, usable); });
-    return {std::move(points), std::move(index)};
-  };
-  return {cache_.get({scan.id, usable}, build), local_pose(scan, subject.site), scan.captured_at, model};
+void ComparisonRunner::register_scan(Subject& subject, LoadedScan& scan, tbb::task_arena& arena,
+                                     ComparisonResult& result) const {
+  const CompareParameters& parameters = subject.comparison.parameters;
+  if (!refines_poses(parameters)) return;
+  Registration& registration = subject.scan.registration;
+  if (!registration.uncertainty) {
+    scan.place(subject.scan, subject.site, false);
+    ScanRegistration found = registrar_(subject.scan, subject.site, parameters, scan, arena);
+    registration = found.registration;
+    result.registration = registration;
+    result.warnings = std::move(found.warnings);
+    scan.place(subject.scan, subject.site, true);
+  }
+  std::ranges::copy(registration_warnings(subject.scan), std::back_inserter(result.warnings));
 }
 
-ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const Loaded& scan) const {
+ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const LoadedScan& scan) const {
   const Payloads& payloads = store_.payloads();
   const Reference& reference = subject.comparison.reference;
   // Two scans that see equally far overlap nowhere when they are farther apart than this.
@@ -173,16 +171,20 @@ ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const 
   const ReferenceLimits limits{.radius_m = radius_m,
                                .contemporary_tolerance = subject.comparison.parameters.contemporary_tolerance,
                                .previous_limit = config_.previous_limit};
+  const bool refined = refines_poses(subject.comparison.parameters);
   Choice choice;
   choice.offered = store_.read([&](const Snapshot& snapshot) {
     return resolve_reference(snapshot, subject.scan, subject.site, reference, limits);
   });
   std::vector<PriorCandidate> candidates;
   for (const ScanRecord& offered : choice.offered) {
-    candidates.push_back({.world_from_sensor = local_pose(offered, subject.site),
-                          .captured_at = offered.captured_at,
-                          .coverage = payloads.scan_panorama(offered.payload),
-                          .required = is_explicit(reference)});
+    const bool fits = !refined || offered.registration.state != RegistrationState::bad;
+    candidates.push_back(
+        {.world_from_sensor = refined ? local_pose(offered, subject.site) : reported_local_pose(offered, subject.site),
+         .captured_at = offered.captured_at,
+         .coverage = payloads.scan_panorama(offered.payload),
+         .required = is_explicit(reference),
+         .refused = fits ? "" : "its registration is bad"});
   }
   const std::vector<Eigen::Vector3d> sample_m = sample_world_points(
       scan.indexed->points, scan.world_from_sensor, scan.indexed->index.usable(), config_.choice.sample_points);
@@ -199,6 +201,7 @@ void ComparisonRunner::commit(const Job& job, const Subject& subject, Comparison
       store_.write([&](Transaction& transaction) { return finish_job(transaction, job, result, now); });
   if (!is_first) return;
   written.keep();
+  log_registration(subject.scan, result);
   spdlog::log(result.changes.empty() ? spdlog::level::debug : spdlog::level::info,
               "scan {} compared with {} others in {:.0f} ms: {} changes", subject.scan.id.value, result.priors.size(),
               result.timings_ms.at("total"), result.changes.size());

@@ -9,6 +9,8 @@
 #include "core/time.hpp"
 #include "server/index_cache.hpp"
 #include "server/progress_board.hpp"
+#include "server/scan_loader.hpp"
+#include "server/scan_registrar.hpp"
 #include "storage/comparisons.hpp"
 #include "storage/scans.hpp"
 #include "storage/store.hpp"
@@ -18,6 +20,7 @@ namespace raywatch {
 struct ComparisonRunnerConfig {
   Duration previous_limit{};  ///< scans older than this are no `previous` reference
   ChoiceParameters choice;
+  RegistrarConfig registrar = {};
 };
 
 /// Carries out queued comparisons: the way of a scan from its priors to its committed changes. Thread-safe.
@@ -33,15 +36,16 @@ class ComparisonRunner {
  private:
   struct Subject;
   struct Choice;
-  struct Loaded;
 
   Subject read_subject(const Job& job) const;
-  Loaded load(const ScanRecord& scan, const Subject& subject, tbb::task_arena& arena);
-  Choice choose(const Subject& subject, const Loaded& scan) const;
+  /// Refines the scan's pose, the first time that it is compared.
+  void register_scan(Subject& subject, LoadedScan& scan, tbb::task_arena& arena, ComparisonResult& result) const;
+  Choice choose(const Subject& subject, const LoadedScan& scan) const;
   void commit(const Job& job, const Subject& subject, ComparisonResult result, const ComparisonPoints& points);
 
   Store& store_;
-  IndexCache& cache_;
+  ScanLoader loader_;
+  ScanRegistrar registrar_;
   ProgressBoard& progress_;
   ComparisonRunnerConfig config_;
   std::function<Time()> now_;

@@ -20,6 +20,7 @@
 #include "storage/comparisons.hpp"
 #include "storage/payloads.hpp"
 #include "storage/sites.hpp"
+#include "storage/sweep.hpp"
 
 namespace raywatch {
 namespace {
@@ -63,7 +64,10 @@ struct Daemon::Impl {
                 {.workers = config.workers > 0 ? config.workers : cores(),
                  .compare_threads = config.compare_threads > 0 ? std::min(config.compare_threads, cores()) : cores()},
                 now),
-        http(with_spool(config.http, config.data_dir), {store, commands(), [this] { return status(); }, now}) {
+        http(with_spool(config.http, config.data_dir),
+             {store, commands(), [this] { return status(); }, now,
+              [](const std::string& failure) { spdlog::error("{}", failure); }}) {
+    for (const std::string& warning : store.open_report().warnings) spdlog::warn("the store: {}", warning);
     if (requeued > 0) spdlog::info("{} comparisons were interrupted and start again", requeued);
     http.start();
   }

@@ -3,6 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -83,6 +85,28 @@ std::vector<Time> capture_times(const std::vector<FileScan>& scans, Duration tol
   return times;
 }
 
+AlignedPriors aligned_priors(const ScanView& scan, std::span<const ScanView> priors,
+                             const CompareParameters& parameters) {
+  if (refines_poses(parameters)) return align_priors(scan, priors, {});
+  AlignedPriors as_given{.alignments = std::vector<Alignment>(priors.size()),
+                         .usable = {priors.begin(), priors.end()},
+                         .places = std::vector<std::uint32_t>(priors.size()),
+                         .warnings = {}};
+  std::iota(as_given.places.begin(), as_given.places.end(), 0U);
+  return as_given;
+}
+
+/// Moves the priors to where they were compared, and says how far that was.
+std::vector<FileRegistration> apply_corrections(const AlignedPriors& aligned, std::span<FileScan> priors) {
+  std::vector<FileRegistration> registrations;
+  for (std::size_t p = 0; p < priors.size(); ++p) {
+    const Alignment& alignment = aligned.alignments[p];
+    registrations.push_back({alignment, size_of(alignment.correction, priors[p].world_from_sensor)});
+    priors[p].world_from_sensor = alignment.correction * priors[p].world_from_sensor;
+  }
+  return registrations;
+}
+
 }  // namespace
 
 FileComparison compare_files(const FileComparisonRequest& request) {
@@ -101,13 +125,18 @@ FileComparison compare_files(const FileComparisonRequest& request) {
   for (std::size_t i = 0; i < scans.size(); ++i) {
     views.push_back({scans[i].points, indexed[i].index, scans[i].world_from_sensor, times[i], indexed[i].sensor});
   }
-  const std::span<const ScanView> priors = std::span(views).subspan(1);
-  Detection detection = detect(views.front(), priors, request.parameters);
+  const ScanView& scan = views.front();
+  const AlignedPriors aligned = aligned_priors(scan, std::span(views).subspan(1), request.parameters);
+  done.timings.align_ms = watch.lap_ms();
+
+  Detection detection = detect(scan, aligned.usable, request.parameters);
   done.timings.detect_ms = watch.lap_ms();
 
-  done.result = form_changes(views.front(), priors, request.parameters, std::move(detection));
+  done.result = form_changes(scan, aligned.usable, request.parameters, std::move(detection));
+  restore_places(aligned, done.result);
   done.timings.cluster_ms = watch.lap_ms();
 
+  if (refines_poses(request.parameters)) done.registrations = apply_corrections(aligned, std::span(scans).subspan(1));
   done.scan = std::move(scans.front());
   done.priors.assign(std::make_move_iterator(scans.begin() + 1), std::make_move_iterator(scans.end()));
   return done;

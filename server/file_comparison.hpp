@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/align.hpp"
 #include "core/compare.hpp"
 #include "core/point_cloud.hpp"
 #include "core/pose.hpp"
@@ -26,14 +27,21 @@ struct FileScan {
   std::optional<Time> captured_at;  ///< from the file or its side-car
 };
 
+/// How a prior was fitted onto the scan.
+struct FileRegistration {
+  Alignment alignment;   ///< its correction relative to `FileComparison::origin_m`
+  PoseUncertainty size;  ///< of the correction
+};
+
 struct FileComparisonTimings {
-  double read_ms = 0.0, index_ms = 0.0, detect_ms = 0.0, cluster_ms = 0.0;  ///< disjoint wall times
+  double read_ms = 0.0, index_ms = 0.0, align_ms = 0.0, detect_ms = 0.0, cluster_ms = 0.0;  ///< disjoint wall times
 };
 
 /// What came of comparing files. Places are relative to `origin_m`, so that they keep their precision in float.
 struct FileComparison {
   FileScan scan;
-  std::vector<FileScan> priors;
+  std::vector<FileScan> priors;                 ///< at their corrected poses
+  std::vector<FileRegistration> registrations;  ///< one a prior; empty when poses were taken as they are
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
   Comparison result;
   FileComparisonTimings timings;

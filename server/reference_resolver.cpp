@@ -8,6 +8,9 @@
 namespace raywatch {
 namespace {
 
+/// Bad ones are passed over only until so many are offered.
+constexpr std::size_t kMaxOffered = 2 * kMaxVantages;
+
 /// `time - by`, or the first moment there is.
 Time earlier(Time time, Duration by) {
   return time.time_since_epoch() < Time::min().time_since_epoch() + by ? Time::min() : time - by;
@@ -23,11 +26,11 @@ class Resolver {
     const Time before = earlier(scan_.captured_at, limits_.contemporary_tolerance);
     const Time not_before = earlier(scan_.captured_at, limits_.previous_limit);
     return from_vantages(
-        [&](const Vantage& vantage) { return latest_scan(snapshot_, vantage.id, not_before, before); });
+        not_before, [&](const Vantage& vantage) { return latest_scan(snapshot_, vantage.id, not_before, before); });
   }
 
   std::vector<ScanRecord> operator()(const WindowReference& window) const {
-    return from_vantages([&](const Vantage& vantage) {
+    return from_vantages(window.from, [&](const Vantage& vantage) {
       std::optional<ScanRecord> latest = latest_scan(snapshot_, vantage.id, window.from, window.to);
       const bool itself = latest && latest->id == scan_.id;
       return itself ? latest_scan(snapshot_, vantage.id, window.from, scan_.captured_at) : latest;
@@ -41,13 +44,20 @@ class Resolver {
   }
 
  private:
+  /// One of each vantage. Those that are badly registered stand in the list too, so that the candidates say why they
+  /// were not chosen; then the one before is offered in their place.
   template <class Offer>
-  std::vector<ScanRecord> from_vantages(const Offer& offer) const {
+  std::vector<ScanRecord> from_vantages(Time not_before, const Offer& offer) const {
     std::vector<ScanRecord> scans;
     const Eigen::Vector3d position_m = local_pose(scan_, site_).position_m;
     for (const Vantage& vantage : nearest_vantages(snapshot_, site_.id, position_m, kMaxVantages)) {
       if ((vantage.position_m - position_m).norm() > limits_.radius_m) break;
       std::optional<ScanRecord> offered = offer(vantage);
+      while (offered && offered->registration.state == RegistrationState::bad && scans.size() < kMaxOffered) {
+        const Time before = offered->captured_at;
+        scans.push_back(std::move(*offered));
+        offered = latest_scan(snapshot_, vantage.id, not_before, before);
+      }
       if (offered) scans.push_back(std::move(*offered));
     }
     return scans;

@@ -75,7 +75,9 @@ CompareParameters read_parameters(const Json& json) {
           .cluster_min_points = json.at("cluster_min_points").get<std::size_t>(),
           .min_range_m = json.at("min_range_m").get<double>(),
           .max_range_m = json.at("max_range_m").get<double>(),
-          .contemporary_tolerance = Duration(json.at("contemporary_tolerance_ns").get<std::int64_t>())};
+          .contemporary_tolerance = Duration(json.at("contemporary_tolerance_ns").get<std::int64_t>()),
+          // Comparisons that were stored before there was a registration took the poses as reported.
+          .align = json.value("align", false)};
 }
 
 }  // namespace
@@ -143,7 +145,8 @@ std::string parameters_json(const CompareParameters& parameters) {
                {"cluster_min_points", parameters.cluster_min_points},
                {"min_range_m", finite(parameters.min_range_m, "min_range_m")},
                {"max_range_m", finite(parameters.max_range_m, "max_range_m")},
-               {"contemporary_tolerance_ns", parameters.contemporary_tolerance.count()}};
+               {"contemporary_tolerance_ns", parameters.contemporary_tolerance.count()},
+               {"align", parameters.align}};
   put(json, "angle_rad", parameters.angle_rad);
   return dump(json);
 }

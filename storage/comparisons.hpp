@@ -13,6 +13,7 @@
 #include "core/time.hpp"
 #include "storage/page.hpp"
 #include "storage/payloads.hpp"
+#include "storage/registration.hpp"
 #include "storage/store.hpp"
 
 namespace raywatch {
@@ -132,6 +133,7 @@ struct ComparisonResult {
   std::map<std::string, double> timings_ms;
   std::vector<std::string> warnings;
   PayloadRef payload;
+  std::optional<Registration> registration;  ///< of the scan, when this comparison's job refined its pose
 };
 /// Commits a result, the end of its job and the scan's state, once: a job that is already finished changes nothing and
 /// gives false (its payload is then without an owner).

@@ -130,6 +130,7 @@ bool finish_job(Transaction& transaction, const Job& job, const ComparisonResult
   update_result(transaction, job.comparison, result, now);
   insert_priors(transaction, job.comparison, result.priors);
   insert_candidates(transaction, job.comparison, result.candidates);
+  if (result.registration) set_registration(transaction, job.scan, *result.registration);
   insert_changes(transaction, find_comparison(transaction, job.comparison).value(), result.changes);
   set_states(transaction, job, ComparisonState::done);
   return true;

@@ -154,4 +154,22 @@ std::optional<ScanRecord> latest_scan(const Snapshot& snapshot, VantageId vantag
   return read_scan(row);
 }
 
+std::optional<ScanRecord> find_anchor(const Snapshot& snapshot, VantageId vantage) {
+  Statement row(database_of(snapshot), select_scans() +
+                                           "INDEXED BY anchors_by_vantage WHERE vantage = ? AND registration_state = "
+                                           "'none' AND registration_uncertainty_m IS NOT NULL "
+                                           "ORDER BY captured_at, id LIMIT 1");
+  if (!row.bind(vantage).next()) return std::nullopt;
+  return read_scan(row);
+}
+
+std::optional<ScanRecord> latest_registered(const Snapshot& snapshot, SensorId sensor, Time before) {
+  Statement row(database_of(snapshot), select_scans() +
+                                           "INDEXED BY scans_by_sensor WHERE sensor = ? AND captured_at < ? AND "
+                                           "registration_uncertainty_m IS NOT NULL "
+                                           "ORDER BY captured_at DESC LIMIT 1");
+  if (!row.bind(sensor, before).next()) return std::nullopt;
+  return read_scan(row);
+}
+
 }  // namespace raywatch

@@ -67,15 +67,16 @@ ScanId insert_row(Transaction& transaction, const ScanRecord& scan, VantageId va
   database_of(transaction)
       .run(
           "INSERT INTO scans (site, sensor, vantage, captured_at, received_at, points, sha256, reported_pose, "
-          "registration_state, registration_correction, registration_residual_m, registration_against, estimated, "
-          "grid_rows, grid_columns, has_intensity, pinned, note, state, failure, payload_file, payload_key, "
-          "stored_bytes) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, '', ?, ?, ?)",
+          "registration_state, registration_correction, estimated, grid_rows, grid_columns, has_intensity, pinned, "
+          "note, state, failure, payload_file, payload_key, stored_bytes) "
+          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, '', ?, ?, ?)",
           scan.site, scan.sensor, vantage, scan.captured_at, scan.received_at, scan.points, scan.sha256, pose,
-          scan.registration.state, correction, scan.registration.residual_m, scan.registration.against,
-          model_json(scan.estimated), member(scan.grid, &ShotGrid::rows), member(scan.grid, &ShotGrid::columns),
-          scan.has_intensity, scan.pinned, scan.note, to_string(ScanState::queued), scan.payload.file, scan.payload.key,
-          scan.stored_bytes);
-  return ScanId{database_of(transaction).last_id()};
+          to_string(scan.registration.state), correction, model_json(scan.estimated),
+          member(scan.grid, &ShotGrid::rows), member(scan.grid, &ShotGrid::columns), scan.has_intensity, scan.pinned,
+          scan.note, to_string(ScanState::queued), scan.payload.file, scan.payload.key, scan.stored_bytes);
+  const ScanId id{database_of(transaction).last_id()};
+  set_registration(transaction, id, scan.registration);
+  return id;
 }
 
 void require_deletable(const Snapshot& snapshot, const ScanRecord& scan) {
@@ -120,6 +121,12 @@ std::string_view to_string(ScanState state) {
   return "failed";
 }
 
+Pose reported_local_pose(const ScanRecord& scan, const Site& site) {
+  Pose local_from_sensor = scan.pose;
+  if (site.origin_m) local_from_sensor.position_m -= *site.origin_m;
+  return local_from_sensor;
+}
+
 Pose local_pose(const ScanRecord& scan, const Site& site) {
   Pose local_from_sensor = scan.registration.correction * scan.pose;
   if (site.origin_m) local_from_sensor.position_m -= *site.origin_m;
@@ -129,8 +136,9 @@ Pose local_pose(const ScanRecord& scan, const Site& site) {
 const std::string& select_scans() {
   static const std::string sql =
       "SELECT id, site, sensor, vantage, captured_at, received_at, points, sha256, reported_pose, registration_state, "
-      "registration_correction, registration_residual_m, registration_against, estimated, grid_rows, grid_columns, "
-      "has_intensity, pinned, note, state, failure, payload_file, payload_key, stored_bytes FROM scans ";
+      "registration_correction, registration_residual_m, registration_inliers, registration_against, "
+      "registration_uncertainty_m, registration_uncertainty_rad, estimated, grid_rows, grid_columns, has_intensity, "
+      " pinned, note, state, failure, payload_file, payload_key, stored_bytes FROM scans ";
   return sql;
 }
 
@@ -145,10 +153,15 @@ ScanRecord read_scan(Statement& row) {
   scan.points = row.take<std::uint64_t>();
   scan.sha256 = row.take<std::string>();
   scan.pose = pose_from_bytes(row.take<std::span<const std::uint8_t>>());
-  scan.registration.state = row.take<std::string>();
+  scan.registration.state = enum_from_text(row.take<std::string>(), {RegistrationState::none, RegistrationState::good,
+                                                                     RegistrationState::moved, RegistrationState::bad});
   scan.registration.correction = pose_from_bytes(row.take<std::span<const std::uint8_t>>());
   scan.registration.residual_m = row.take<std::optional<double>>();
+  scan.registration.inliers = row.take<std::optional<double>>();
   scan.registration.against = row.take<std::optional<ScanId>>();
+  const auto uncertainty_m = row.take<std::optional<double>>();
+  const auto uncertainty_rad = row.take<std::optional<double>>();
+  if (uncertainty_m && uncertainty_rad) scan.registration.uncertainty = {*uncertainty_m, *uncertainty_rad};
   scan.estimated = model_from_json(row.take<std::string>());
   const auto rows = row.take<std::optional<std::uint32_t>>();
   const auto columns = row.take<std::optional<std::uint32_t>>();
@@ -196,6 +209,18 @@ ScanRecord edit_scan(Transaction& transaction, ScanId id, const ScanEdit& edit) 
   scan.note = edit.note.value_or(scan.note);
   database_of(transaction).run("UPDATE scans SET pinned = ?, note = ? WHERE id = ?", scan.pinned, scan.note, id);
   return scan;
+}
+
+void set_registration(Transaction& transaction, ScanId id, const Registration& registration) {
+  const PoseBytes correction = pose_bytes(registration.correction);
+  database_of(transaction)
+      .run(
+          "UPDATE scans SET registration_state = ?, registration_correction = ?, registration_residual_m = ?, "
+          "registration_inliers = ?, registration_against = ?, registration_uncertainty_m = ?, "
+          "registration_uncertainty_rad = ? WHERE id = ?",
+          to_string(registration.state), correction, registration.residual_m, registration.inliers,
+          registration.against, member(registration.uncertainty, &PoseUncertainty::position_m),
+          member(registration.uncertainty, &PoseUncertainty::angle_rad), id);
 }
 
 void set_scan_state(Transaction& transaction, ScanId id, ScanState state, std::string_view failure) {

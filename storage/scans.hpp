@@ -13,6 +13,7 @@
 #include "core/time.hpp"
 #include "storage/page.hpp"
 #include "storage/payloads.hpp"
+#include "storage/registration.hpp"
 #include "storage/sites.hpp"
 #include "storage/store.hpp"
 
@@ -31,14 +32,6 @@ struct Vantage {
 };
 /// Scans nearer than this to a vantage belong to it.
 inline constexpr double kVantageRadius_m = 0.25;
-
-/// How the pose of a scan was refined.
-struct Registration {
-  std::string state = "none";  ///< "none": the pose is used as reported
-  Pose correction;             ///< corrected = correction * reported
-  std::optional<double> residual_m;
-  std::optional<ScanId> against;
-};
 
 /// A stored scan without its points.
 struct ScanRecord {
@@ -65,6 +58,8 @@ struct ScanRecord {
 
 /// The pose to compute with: registered, relative to the site's origin.
 Pose local_pose(const ScanRecord& scan, const Site& site);
+/// The pose as reported, relative to the site's origin.
+Pose reported_local_pose(const ScanRecord& scan, const Site& site);
 
 /// Stores the record (its `id`, `vantage`, `state` are decided here), makes a vantage if none is near, and fixes the
 /// site's origin if this is its first scan (to the scan's position rounded to whole metres if farther than 10 km from
@@ -92,6 +87,7 @@ struct ScanEdit {
   std::optional<std::string> note;
 };
 ScanRecord edit_scan(Transaction& transaction, ScanId id, const ScanEdit& edit);
+void set_registration(Transaction& transaction, ScanId id, const Registration& registration);
 void set_scan_state(Transaction& transaction, ScanId id, ScanState state, std::string_view failure = {});
 
 /// Deletes the record with its comparisons and changes; returns the payloads to remove after the commit.
@@ -105,5 +101,9 @@ std::vector<Vantage> nearest_vantages(const Snapshot& snapshot, SiteId site, con
                                       std::size_t limit);
 /// The latest scan of a vantage with not_before <= captured_at < before.
 std::optional<ScanRecord> latest_scan(const Snapshot& snapshot, VantageId vantage, Time not_before, Time before);
+/// The earliest anchor of a vantage: see `Registration`.
+std::optional<ScanRecord> find_anchor(const Snapshot& snapshot, VantageId vantage);
+/// The latest scan of a sensor before a time whose registration was looked at.
+std::optional<ScanRecord> latest_registered(const Snapshot& snapshot, SensorId sensor, Time before);
 
 }  // namespace raywatch

@@ -162,6 +162,16 @@ CREATE INDEX changes_by_time ON changes (captured_at DESC, comparison, place, ki
 CREATE VIRTUAL TABLE change_bounds USING rtree (id, site_min, site_max, x_min, x_max, y_min, y_max, z_min, z_max);
 )sql";
 
+/// How well poses were refined. A row without an uncertainty was not looked at; one of state "none" that was is an
+/// anchor, and there are few of them among many scans.
+constexpr std::string_view kMetadata2 = R"sql(
+ALTER TABLE scans ADD COLUMN registration_inliers REAL;
+ALTER TABLE scans ADD COLUMN registration_uncertainty_m REAL;
+ALTER TABLE scans ADD COLUMN registration_uncertainty_rad REAL;
+CREATE INDEX anchors_by_vantage ON scans (vantage, captured_at)
+  WHERE registration_state = 'none' AND registration_uncertainty_m IS NOT NULL;
+)sql";
+
 // A chunk's key is its payload's key times 2^20 plus its place: all chunks of a payload lie together, in order. The
 // bounds stand before the data, so that they are read without it; they are empty where no point has a direction.
 constexpr std::string_view kPayload1 = R"sql(
@@ -190,7 +200,7 @@ CREATE TABLE chunks (
 ) STRICT;
 )sql";
 
-constexpr std::array kMetadataSteps{kMetadata1};
+constexpr std::array kMetadataSteps{kMetadata1, kMetadata2};
 constexpr std::array kPayloadSteps{kPayload1};
 
 }  // namespace

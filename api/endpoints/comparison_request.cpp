@@ -40,9 +40,11 @@ CompareParameters parse_parameters(JsonObject& body, Profile profile) {
   if (const auto seconds = body.real("contemporary_s", kContemporary_s)) {
     parameters.contemporary_tolerance = duration_of_seconds(*seconds);
   }
+  assign(body.flag("align"), parameters.align);
+  if (parameters.align && grouping == Grouping::union_) body.fail("align", "must be false for union");
   if (parameters.min_range_m > parameters.max_range_m) body.fail("min_range_m", "must not be above max_range_m");
   for (const char* name : {"grouping", "range_m", "support_distance_m", "clustering", "cluster_distance_m",
-                           "cluster_min_points", "min_range_m", "max_range_m", "contemporary_s"})
+                           "cluster_min_points", "min_range_m", "max_range_m", "contemporary_s", "align"})
     body.refuse_null(name);
   body.finish();
   return parameters;

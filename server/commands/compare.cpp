@@ -40,7 +40,7 @@ struct Options {
   std::string grouping = "consensus", profile = "indoor";
   std::optional<double> angle_deg, range_m, support_distance_m, cluster_distance_m, min_range_m, max_range_m;
   std::optional<std::size_t> cluster_min_points;
-  bool no_cluster = false;
+  bool no_cluster = false, no_align = false;
   double contemporary_s = 0.0;
   int threads = 0;
   std::string output, removed_output;
@@ -51,6 +51,7 @@ CompareParameters parameters_of(const Options& options) {
   if (options.angle_deg) p.angle_rad = *options.angle_deg * std::numbers::pi / 180.0;
   p.range_m = options.range_m.value_or(p.range_m);
   p.support_distance_m = options.support_distance_m.value_or(p.support_distance_m);
+  p.align = p.align && !options.no_align;
   p.clustering = p.clustering && !options.no_cluster;
   p.cluster_distance_m = options.cluster_distance_m.value_or(p.cluster_distance_m);
   p.cluster_min_points = options.cluster_min_points.value_or(p.cluster_min_points);
@@ -119,6 +120,8 @@ void add_compare(CLI::App& program, Run& run) {
   command->add_option("--cluster-min-points", options->cluster_min_points,
                       "Changes of at most so many points are noise");
   command->add_flag("--no-cluster", options->no_cluster, "Report every changed point");
+  command->add_flag("--no-align", options->no_align,
+                    "Take all poses as given; else a consensus fits each prior to NEW");
   command->add_option("--min-range-m", options->min_range_m, "Nearer returns are ignored")->check(CLI::Range(0.0, 1e9));
   command->add_option("--max-range-m", options->max_range_m, "Farther returns are ignored")
       ->check(CLI::Range(0.0, 1e9));

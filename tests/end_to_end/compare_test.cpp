@@ -68,11 +68,25 @@ TEST_CASE("compare prints counts, changes and disjoint timings as one JSON objec
   CHECK(result["changes"][0]["centroid_m"][0] == doctest::Approx(kBoxFaceCenter_m.x()).epsilon(0.002));
 
   double sum_ms = 0.0;
-  for (const char* step : {"read", "index", "detect", "cluster", "write"}) {
+  for (const char* step : {"read", "index", "align", "detect", "cluster", "write"}) {
     REQUIRE(result["timings_ms"].contains(step));
     sum_ms += result["timings_ms"][step].get<double>();
   }
   CHECK(sum_ms <= result["timings_ms"]["total"].get<double>());
+}
+
+TEST_CASE("a prior that stands a little elsewhere is put right, unless poses are to be taken as given") {
+  const Pair pair;
+  PlaceScan shifted = scan_place({}, 2);
+  shifted.world_from_sensor.position_m.x() += 0.05;
+  const std::string shifted_file = shifted.write(pair.folder.path(), "shifted").string();
+  const json aligned = compare({pair.before_file, "--against", shifted_file})["priors"][0]["registration"];
+  CHECK(aligned["state"] == "good");
+  CHECK(aligned["correction"]["position_m"][0] == doctest::Approx(-0.05).epsilon(0.02));
+  CHECK(aligned["shift_m"] == doctest::Approx(0.05).epsilon(0.02));
+  CHECK(aligned["residual_m"].get<double>() < 0.005);
+  CHECK(aligned["uncertainty"]["position_m"].get<double>() > 0.0);
+  CHECK(compare({pair.before_file, "--against", shifted_file, "--no-align"})["priors"][0]["registration"].is_null());
 }
 
 TEST_CASE("what went away is removed, with the index of each point in its file") {
@@ -80,8 +94,8 @@ TEST_CASE("what went away is removed, with the index of each point in its file")
   const std::string removed_file = pair.path("removed.csv");
   const PlaceScan later = scan_place({}, 2);
   const std::string later_file = later.write(pair.folder.path(), "later").string();
-  const json result = compare(
-      {later_file, "--against", pair.before_file, "--against", pair.after_file, "--removed-output", removed_file});
+  const json result = compare({later_file, "--against", pair.before_file, "--against", pair.after_file, "--no-align",
+                               "--removed-output", removed_file});
   CHECK(result["counts"]["removed"] == kBoxPoints);
 
   const std::vector<std::string> lines = read_lines(removed_file);

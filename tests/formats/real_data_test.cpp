@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "core/align.hpp"
 #include "storage/formats/scan_file.hpp"
 #include "storage/formats/side_car.hpp"
 
@@ -45,4 +46,15 @@ TEST_CASE("the real room scans have no pose, because their VIEWPOINT is an ident
   const auto scans = read_scan_file(file);
   CHECK(scans[0].points.size() == 112'586);
   CHECK_FALSE(scans[0].world_from_sensor);
+}
+
+TEST_CASE("the real room scans fit nowhere near their rough poses, and are refused instead of bent") {
+  const auto first = real_data() / "room_scan1.pcd", second = real_data() / "room_scan2.pcd";
+  if (is_absent(first) || is_absent(second)) return;
+  const PointCloud reference = read_scan_file(first).at(0).points, scan = read_scan_file(second).at(0).points;
+  const PriorIndex reference_index = PriorIndex::build(reference, {}), index = PriorIndex::build(scan, {});
+  const ScanView onto{reference, reference_index, {}, {}, estimate_sensor(reference, reference_index)};
+  const Pose rough{Eigen::Quaterniond(Eigen::AngleAxisd(0.6931, Eigen::Vector3d::UnitZ())), {1.79387, 0.720047, 0.0}};
+  const ScanView view{scan, index, rough, {}, estimate_sensor(scan, index)};
+  CHECK(align(view, {&onto, 1}, {}).state == RegistrationState::bad);
 }

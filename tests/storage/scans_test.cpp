@@ -32,7 +32,7 @@ TEST_CASE_FIXTURE(StoreFixture, "a scan comes back as it was given, queued") {
   CHECK(scan.sha256 == given.sha256);
   CHECK(scan.pose.position_m == given.pose.position_m);
   CHECK(scan.pose.orientation.coeffs() == given.pose.orientation.coeffs());
-  CHECK(scan.registration.state == "none");
+  CHECK(scan.registration.state == RegistrationState::none);
   CHECK(scan.registration.residual_m == 0.01);
   CHECK(scan.registration.against == ScanId{3});
   CHECK(scan.estimated.no_return_m == 70.0);
