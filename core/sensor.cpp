@@ -80,15 +80,16 @@ std::optional<Eigen::Vector2d> angular_resolution(const PriorIndex::Impl& index)
   return Eigen::Vector2d(median(azimuth), median(elevation));
 }
 
-std::vector<float> ranges_of(const PointCloud& cloud) {
-  std::vector<float> ranges_m(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) ranges_m[i] = cloud[i].norm();
+/// The ranges of every `stride`-th point.
+std::vector<float> ranges_of(const PointCloud& cloud, std::size_t stride) {
+  std::vector<float> ranges_m;
+  ranges_m.reserve(cloud.size() / stride + 1);
+  for (std::size_t i = 0; i < cloud.size(); i += stride) ranges_m.push_back(cloud[i].norm());
   return ranges_m;
 }
 
 /// A real farthest range is that of few returns; a sentinel is that of many, and all of them to the millimetre.
-std::optional<double> sentinel_range(const std::vector<float>& ranges_m) {
-  constexpr std::size_t kLeastReturns = 50;
+std::optional<double> sentinel_among(const std::vector<float>& ranges_m, std::size_t least_returns) {
   constexpr double kLeastShare = 0.005;
   double farthest_m = 0.0;
   std::size_t measured = 0;
@@ -100,19 +101,28 @@ std::optional<double> sentinel_range(const std::vector<float>& ranges_m) {
   const auto at_the_end = static_cast<std::size_t>(std::count_if(ranges_m.begin(), ranges_m.end(), [&](float range_m) {
     return std::isfinite(range_m) && range_m >= farthest_m - kNoReturnBand_m;
   }));
-  const auto needed =
-      std::max<std::size_t>(kLeastReturns, static_cast<std::size_t>(kLeastShare * static_cast<double>(measured)));
+  const auto needed = std::max(least_returns, static_cast<std::size_t>(kLeastShare * static_cast<double>(measured)));
   if (measured == 0 || at_the_end < needed) return std::nullopt;
   return farthest_m;
 }
 
+/// Few scans have a sentinel: what a sample does not show is not looked for in all points.
+std::optional<double> sentinel_range(const PointCloud& cloud) {
+  constexpr std::size_t kSample = 50'000, kLeastReturns = 50;
+  const std::size_t stride = std::max<std::size_t>(1, cloud.size() / kSample);
+  if (stride > 1 && !sentinel_among(ranges_of(cloud, stride), kLeastReturns / 2)) return std::nullopt;
+  return sentinel_among(ranges_of(cloud, 1), kLeastReturns);
+}
+
 /// From the second differences of consecutive returns, which vanish on smooth surfaces: their spread is sqrt(1.5) times
 /// the noise of one. The median absolute deviation leaves edges out of account.
-std::optional<double> range_noise(const PointCloud& cloud, const std::vector<float>& ranges_m, double spacing_rad) {
+std::optional<double> range_noise(const PointCloud& cloud, double spacing_rad) {
+  constexpr std::size_t kSample = 50'000;
+  const std::size_t stride = std::max<std::size_t>(1, cloud.size() / kSample);
   const double least_cosine = std::cos(std::min(2.0 * spacing_rad, 0.5));
   std::vector<float> deviations_m;
-  for (std::size_t i = 1; i + 1 < cloud.size(); ++i) {
-    const float before = ranges_m[i - 1], here = ranges_m[i], after = ranges_m[i + 1];
+  for (std::size_t i = 1; i + 1 < cloud.size(); i += stride) {
+    const float before = cloud[i - 1].norm(), here = cloud[i].norm(), after = cloud[i + 1].norm();
     if (!(before > 0.0f && here > 0.0f && after > 0.0f && std::isfinite(before + here + after))) continue;
     const bool adjacent = cloud[i].dot(cloud[i - 1]) >= least_cosine * here * before &&
                           cloud[i].dot(cloud[i + 1]) >= least_cosine * here * after;
@@ -128,11 +138,10 @@ SensorModel estimate_sensor(const PointCloud& cloud) { return estimate_sensor(cl
 
 SensorModel estimate_sensor(const PointCloud& cloud, const PriorIndex& index) {
   SensorModel model;
-  const std::vector<float> ranges_m = ranges_of(cloud);
-  model.no_return_m = sentinel_range(ranges_m);
+  model.no_return_m = sentinel_range(cloud);
   model.angular_resolution_rad = angular_resolution(index.impl());
   if (model.angular_resolution_rad) {
-    model.range_noise_m = range_noise(cloud, ranges_m, model.angular_resolution_rad->maxCoeff());
+    model.range_noise_m = range_noise(cloud, model.angular_resolution_rad->maxCoeff());
   }
   return model;
 }
