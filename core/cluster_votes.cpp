@@ -34,38 +34,106 @@ Eigen::Vector3d place(const PriorIndex::Impl& index, std::uint32_t i) {
   return {index.x_m[i], index.y_m[i], index.z_m[i]};
 }
 
-/// How much farther apart the shots of `asked` are where a point stands than those of `view`; at least 1.
+/// How much farther apart the shots of `asked` are where a point stands than those of `view`; at least 1, and bounded,
+/// as the cost grows with its square.
 double coarsening(const ScanView& view, const Eigen::Vector3d& point_m, const ScanView& asked,
                   const Eigen::Vector3d& asked_m) {
-  return std::max(1.0, spacing_of(asked).maxCoeff() * asked_m.norm() / (spacing_of(view).maxCoeff() * point_m.norm()));
+  constexpr double kMost = 5.0;
+  const double ratio = spacing_of(asked).maxCoeff() * asked_m.norm() / (spacing_of(view).maxCoeff() * point_m.norm());
+  return std::clamp(ratio, 1.0, kMost);
 }
 
-double coherence(const ScanView& view, std::uint32_t point, double scale) {
-  constexpr double kReach = 1.6;  // spacings: the eight neighbours on a grid of shots
-  constexpr double kSlope = 1.5;  // of a surface against the sphere around the sensor
-  constexpr double kNoise = 4.0;
-  const Eigen::Vector2d spacing = scale * spacing_of(view);
-  const double noise_m = kNoise * view.sensor.range_noise_m.value_or(kFallbackNoise_m);
-  const Eigen::Vector3d p = view.points[point].cast<double>();
-  const double range_m = p.norm();
-  const Eigen::Vector3d east = p.cross(Eigen::Vector3d::UnitZ()).normalized();
-  const Eigen::Vector3d north = east.cross(p).normalized();
-  std::size_t all = 0, alike = 0;
+/// The shots around one return of a scan, in its own frame.
+class Neighbourhood {
+ public:
+  /// @param scale of the spacing of the shots: at 1, on a grid of shots, the eight next to it.
+  Neighbourhood(const ScanView& view, const Eigen::Vector3d& point_m, double scale)
+      : noise_m_(kNoise * view.sensor.range_noise_m.value_or(kFallbackNoise_m)), range_m_(point_m.norm()) {
+    constexpr double kReach = 1.6;
+    const Eigen::Vector2d spacing = scale * spacing_of(view);
+    const Eigen::Vector3d east = point_m.cross(Eigen::Vector3d::UnitZ()).normalized();
+    const Eigen::Vector3d north = east.cross(point_m).normalized();
+    const PriorIndex::Impl& index = view.index.impl();
+    for_each_return_near(index, point_m, kReach * spacing.maxCoeff(), [&](std::uint32_t i) {
+      const Eigen::Vector3d q = place(index, i);
+      if (q == point_m || q.dot(point_m) < 0.0) return;
+      const double rho = q.norm();
+      const Eigen::Vector2d offset_rad(east.dot(q) / rho, north.dot(q) / rho);
+      const Eigen::Vector2d shots = offset_rad.cwiseQuotient(spacing);
+      if (shots.norm() <= kReach) shots_.push_back({shots, rho, offset_rad.norm() * range_m_});
+    });
+  }
+
+  /// The share of the shots whose returns are as far as the point, but for a gentle slope. 0 when there is no shot.
+  double coherence() const {
+    return share([this](const Shot& shot) { return is_level(shot); });
+  }
+
+  /// The same, counting also returns in line with the point and the shot on its other side: ground at grazing
+  /// incidence.
+  double smoothness() const {
+    return share([this](const Shot& shot) { return is_level(shot) || continues(shot); });
+  }
+
+ private:
+  static constexpr double kNoise = 4.0;   // standard deviations
+  static constexpr double kGentle = 1.5;  // slope of a surface against the sphere around the sensor
+  static constexpr double kSteep = 20.0;  // the same, of ground at grazing incidence; steeper is an edge
+
+  struct Shot {
+    Eigen::Vector2d offset;  ///< in spacings
+    double range_m;
+    double aside_m;  ///< from the point, across the ray
+  };
+
+  template <class Predicate>
+  double share(Predicate predicate) const {
+    if (shots_.empty()) return 0.0;
+    return static_cast<double>(std::count_if(shots_.begin(), shots_.end(), predicate)) /
+           static_cast<double>(shots_.size());
+  }
+
+  bool is_level(const Shot& shot) const { return step_m(shot) <= noise_m_ + kGentle * shot.aside_m; }
+  double step_m(const Shot& shot) const { return std::abs(shot.range_m - range_m_); }
+
+  /// In a plane the inverse range is a linear function of the direction.
+  bool continues(const Shot& shot) const {
+    constexpr double kOpposite = 0.7;
+    constexpr double kBend = 0.15;
+    if (step_m(shot) > noise_m_ + kSteep * shot.aside_m) return false;
+    return std::any_of(shots_.begin(), shots_.end(), [&](const Shot& other) {
+      const double bend_m = std::abs(1.0 - 0.5 * range_m_ * (1.0 / shot.range_m + 1.0 / other.range_m)) * range_m_;
+      return (shot.offset + other.offset).norm() < kOpposite && bend_m <= noise_m_ + kBend * shot.aside_m;
+    });
+  }
+
+  double noise_m_;
+  double range_m_;
+  std::vector<Shot> shots_;
+};
+
+/// The mean smoothness of the returns of a scan within a distance of a place; 1 when it has hardly any there.
+double smoothness_around(const ScanView& view, const Eigen::Vector3d& center_m, double distance_m) {
+  constexpr std::size_t kLeast = 3, kMost = 100;
+  const double range_m = center_m.norm();
+  if (!(range_m > distance_m)) return 1.0;
   const PriorIndex::Impl& index = view.index.impl();
-  for_each_return_near(index, p, kReach * spacing.maxCoeff(), [&](std::uint32_t i) {
-    if (index.source[i] == point) return;
-    const Eigen::Vector3d q = place(index, i);
-    const double rho = q.norm();
-    const double a = east.dot(q) / rho, e = north.dot(q) / rho;
-    if (std::hypot(a / spacing.x(), e / spacing.y()) > kReach || q.dot(p) < 0.0) return;
-    ++all;
-    alike += std::abs(rho - range_m) <= noise_m + kSlope * std::hypot(a, e) * range_m;
+  std::vector<Eigen::Vector3d> near_m;
+  for_each_return_near(index, center_m, std::asin(distance_m / range_m), [&](std::uint32_t i) {
+    if ((place(index, i) - center_m).squaredNorm() < distance_m * distance_m) near_m.push_back(place(index, i));
   });
-  return all == 0 ? 0.0 : static_cast<double>(alike) / static_cast<double>(all);
+  if (near_m.size() < kLeast) return 1.0;
+  const std::size_t step = (near_m.size() - 1) / kMost + 1;
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < near_m.size(); k += step, ++count)
+    sum += Neighbourhood(view, near_m[k], 1.0).smoothness();
+  return sum / static_cast<double>(count);
 }
 
 /// The thickness of the returns within `radius_m` of a place: the standard deviation across their plane.
 double thickness_m(const PriorIndex::Impl& index, const Eigen::Vector3d& center_m, double radius_m) {
+  constexpr std::size_t kLeast = 4;
   if (!(center_m.norm() > radius_m)) return 0.0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
@@ -77,7 +145,7 @@ double thickness_m(const PriorIndex::Impl& index, const Eigen::Vector3d& center_
     squares += offset_m * offset_m.transpose();
     ++count;
   });
-  if (count < 4) return 0.0;
+  if (count < kLeast) return 0.0;
   const Eigen::Vector3d mean = sum / static_cast<double>(count);
   const Eigen::Matrix3d covariance = squares / static_cast<double>(count) - mean * mean.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance, Eigen::EigenvaluesOnly);
@@ -136,15 +204,19 @@ std::size_t rays_through(const ScanView& view, std::span<const std::uint32_t> me
 
 ClusterVotes votes_of(const ScanView& view, std::span<const std::uint32_t> members, const ScanView& asked,
                       const CompareParameters& parameters) {
+  constexpr std::size_t kMost = 200;  // points of a cluster that are looked at, for its mean
   ClusterVotes votes{.rays_through = rays_through(view, members, asked, parameters)};
   const Pose asked_from_view = asked.world_from_sensor.inverse() * view.world_from_sensor;
-  for (const std::uint32_t i : members) {
-    const Eigen::Vector3d p = view.points[i].cast<double>(), q = asked_from_view * p;
-    votes.coherence += coherence(view, i, coarsening(view, p, asked, q));
-    votes.roughness_m += thickness_m(asked.index.impl(), q, parameters.growth_distance_m);
+  const std::size_t step = (members.size() - 1) / kMost + 1;
+  const auto count = static_cast<double>((members.size() - 1) / step + 1);
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < members.size(); k += step) {
+    const Eigen::Vector3d p = view.points[members[k]].cast<double>(), q = asked_from_view * p;
+    votes.coherence += Neighbourhood(view, p, coarsening(view, p, asked, q)).coherence() / count;
+    votes.roughness_m += thickness_m(asked.index.impl(), q, parameters.growth_distance_m) / count;
+    center_m += q / count;
   }
-  votes.coherence /= static_cast<double>(members.size());
-  votes.roughness_m /= static_cast<double>(members.size());
+  votes.surroundings = smoothness_around(asked, center_m, parameters.foliage_distance_m);
   return votes;
 }
 

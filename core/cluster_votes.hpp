@@ -16,8 +16,10 @@ struct ClusterVotes {
   /// foliage, on fences and for returns mixed of two surfaces. Through such things rays of `asked` may pass. Beside:
   /// one shot of either scan away, whichever is farther.
   double coherence = 0.0;
-  /// The mean thickness of the layer in which the returns of `asked` near the points lie: low beside flat surfaces,
-  /// high in foliage.
+  /// The same share of the returns of `asked` within `foliage_distance_m` of the cluster, whatever the slope of their
+  /// surface is. Leaves and grass are low, and they move.
+  double surroundings = 1.0;
+  /// The mean thickness of the layer in which the returns of `asked` near the points lie: low beside flat surfaces.
   double roughness_m = 0.0;
 };
 

@@ -58,6 +58,9 @@ struct CompareParameters {
   /// In a consensus, how far a change may grow from points that surely changed over those that no prior supports; at
   /// least to the neighbouring shots.
   double growth_distance_m = 0.0;
+  /// In a consensus, how far around a cluster of free points a prior must be coherent: within it, leaves and grass
+  /// sway. 0: not asked.
+  double foliage_distance_m = 0.0;
   bool clustering = true;
   double cluster_distance_m = 0.10;     ///< d: points nearer than this belong together
   std::size_t cluster_min_points = 40;  ///< m: clusters of at most this many points are noise

@@ -344,6 +344,8 @@ void check(const CompareParameters& parameters, std::size_t priors) {
           "must be 0 or more");
   require(std::isfinite(parameters.growth_distance_m) && parameters.growth_distance_m >= 0.0, "growth_distance_m",
           "must be 0 or more");
+  require(std::isfinite(parameters.foliage_distance_m) && parameters.foliage_distance_m >= 0.0, "foliage_distance_m",
+          "must be 0 or more");
   require(std::isfinite(parameters.cluster_distance_m) && parameters.cluster_distance_m > 0.0, "cluster_distance_m",
           "must be above 0");
   require(parameters.min_range_m >= 0.0, "min_range_m", "must be 0 or more");

@@ -107,13 +107,14 @@ class Growth {
   bool is_sure(const std::vector<std::uint32_t>& cluster) const {
     constexpr std::size_t kLeastRays = 5;
     constexpr double kLeastCoherence = 0.55;
+    constexpr double kLeastSurroundings = 0.85;
     const double noise_m = view_.sensor.range_noise_m.value_or(0.0);
     const double greatest_roughness_m = std::max(parameters_.support_distance_m / 3.0, noise_m);
     if (cluster.size() < kLeastRays) return false;
     return std::any_of(asked_.begin(), asked_.end(), [&](const ScanView& asked) {
       const ClusterVotes votes = votes_of(view_, cluster, asked, parameters_);
       return votes.rays_through >= kLeastRays && votes.coherence >= kLeastCoherence &&
-             votes.roughness_m <= greatest_roughness_m;
+             votes.surroundings >= kLeastSurroundings && votes.roughness_m <= greatest_roughness_m;
     });
   }
 

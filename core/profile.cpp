@@ -44,6 +44,7 @@ CompareParameters default_parameters(Profile profile, Grouping grouping) {
       parameters.range_m = 0.15;
       parameters.support_distance_m = 0.06;
       parameters.growth_distance_m = 0.4;
+      parameters.foliage_distance_m = 0.8;
       parameters.cluster_distance_m = 0.30;
       parameters.cluster_min_points = 9;
       parameters.min_range_m = 0.75;
@@ -52,6 +53,7 @@ CompareParameters default_parameters(Profile profile, Grouping grouping) {
       parameters.range_m = 0.20;
       parameters.support_distance_m = 0.10;
       parameters.growth_distance_m = 0.6;
+      parameters.foliage_distance_m = 1.0;
       parameters.cluster_distance_m = 0.6;
       parameters.cluster_min_points = 20;
       break;

@@ -71,6 +71,7 @@ CompareParameters read_parameters(const Json& json) {
           // Comparisons that were stored before there were such distances did not ask for them.
           .support_distance_m = get(json, "support_distance_m").value_or(0.0),
           .growth_distance_m = get(json, "growth_distance_m").value_or(0.0),
+          .foliage_distance_m = get(json, "foliage_distance_m").value_or(0.0),
           .clustering = json.at("clustering").get<bool>(),
           .cluster_distance_m = json.at("cluster_distance_m").get<double>(),
           .cluster_min_points = json.at("cluster_min_points").get<std::size_t>(),
@@ -140,6 +141,7 @@ std::string parameters_json(const CompareParameters& parameters) {
                {"range_m", finite(parameters.range_m, "range_m")},
                {"support_distance_m", finite(parameters.support_distance_m, "support_distance_m")},
                {"growth_distance_m", finite(parameters.growth_distance_m, "growth_distance_m")},
+               {"foliage_distance_m", finite(parameters.foliage_distance_m, "foliage_distance_m")},
                {"clustering", parameters.clustering},
                {"cluster_distance_m", finite(parameters.cluster_distance_m, "cluster_distance_m")},
                {"cluster_min_points", parameters.cluster_min_points},
