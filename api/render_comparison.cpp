@@ -23,6 +23,8 @@ Json render_parameters(const CompareParameters& parameters) {
           {"range_m", parameters.range_m},
           {"clustering", parameters.clustering},
           {"support_distance_m", parameters.support_distance_m},
+          {"growth_distance_m", parameters.growth_distance_m},
+          {"foliage_distance_m", parameters.foliage_distance_m},
           {"cluster_distance_m", parameters.cluster_distance_m},
           {"cluster_min_points", parameters.cluster_min_points},
           {"min_range_m", parameters.min_range_m},

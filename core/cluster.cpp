@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <tuple>
 
@@ -132,6 +133,21 @@ void for_each_neighbour_pair(const std::vector<Voxel>& voxels, Visit visit) {
   }
 }
 
+/// The cluster of each point in the order of each cluster's first one. `name(i)`, below `n`, names the set of a point.
+template <class Name>
+std::vector<std::uint32_t> numbered(std::size_t n, Name name) {
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number_of(n, kNone);
+  std::vector<std::uint32_t> clusters(n);
+  std::uint32_t next = 0;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    std::uint32_t& number = number_of[name(i)];
+    if (number == kNone) number = next++;
+    clusters[i] = number;
+  }
+  return clusters;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> cluster_points(std::span<const Eigen::Vector3f> points_m, double distance_m) {
@@ -150,20 +166,35 @@ std::vector<std::uint32_t> cluster_points(std::span<const Eigen::Vector3f> point
     if (sets.find(a) != sets.find(b) && near(group(v), group(w))) sets.join(a, b);
   });
 
-  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> voxel_of(points_m.size());
   for (std::uint32_t v = 0; v < voxels.size(); ++v) {
     for (const std::uint32_t i : group(v)) voxel_of[i] = v;
   }
-  std::vector<std::uint32_t> number_of(voxels.size(), kNone);
-  std::vector<std::uint32_t> clusters(points_m.size());
-  std::uint32_t next = 0;
-  for (std::size_t i = 0; i < points_m.size(); ++i) {
-    std::uint32_t& number = number_of[sets.find(voxel_of[i])];
-    if (number == kNone) number = next++;
-    clusters[i] = number;
+  return numbered(points_m.size(), [&](std::uint32_t i) { return sets.find(voxel_of[i]); });
+}
+
+std::vector<std::uint32_t> cluster_points(std::span<const Eigen::Vector3f> points_m, std::span<const float> reach_m) {
+  if (points_m.empty()) return {};
+  const double least_m = *std::min_element(reach_m.begin(), reach_m.end());
+  const double greatest_m = *std::max_element(reach_m.begin(), reach_m.end());
+  DisjointSets sets(points_m.size());
+  // Linking those of at least one reach by that reach, for each reach, links each pair by the smaller of its two.
+  for (double level_m = least_m; level_m <= greatest_m; level_m *= std::numbers::sqrt2) {
+    std::vector<std::uint32_t> members;
+    std::vector<Eigen::Vector3f> positions_m;
+    for (std::uint32_t i = 0; i < points_m.size(); ++i) {
+      if (reach_m[i] < level_m) continue;
+      members.push_back(i);
+      positions_m.push_back(points_m[i]);
+    }
+    const std::vector<std::uint32_t> cluster_of = cluster_points(positions_m, level_m);
+    std::vector<std::uint32_t> first_of;
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      if (cluster_of[k] == first_of.size()) first_of.push_back(members[k]);
+      sets.join(first_of[cluster_of[k]], members[k]);
+    }
   }
-  return clusters;
+  return numbered(points_m.size(), [&](std::uint32_t i) { return sets.find(i); });
 }
 
 }  // namespace raywatch

@@ -15,4 +15,10 @@ namespace raywatch {
 ///   O(n log n) also when many points share one place.
 std::vector<std::uint32_t> cluster_points(std::span<const Eigen::Vector3f> points_m, double distance_m);
 
+/// The same with a distance for every point, for scans that are sparser far away: two points belong together when they
+/// are nearer to each other than the smaller of their reaches, each rounded down to a power of the square root of 2
+/// times the least one.
+/// @param reach_m one a point, greater than 0, finite.
+std::vector<std::uint32_t> cluster_points(std::span<const Eigen::Vector3f> points_m, std::span<const float> reach_m);
+
 }  // namespace raywatch

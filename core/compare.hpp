@@ -51,10 +51,16 @@ struct CompareParameters {
   /// resolution of each prior.
   std::optional<double> angle_rad;
   double range_m = 0.1;  ///< T_r
-  /// In a consensus, a prior that has a return nearer than this to a point supports it, whatever the angles say: errors
-  /// of the pose and grazing incidence move a surface along the ray by more than T_r, but hardly off itself. 0: not
-  /// asked.
+  /// In a consensus: how rough surfaces are. A point that is nearer than this to a surface of a prior is supported by
+  /// it; what range noise and the errors of the poses explain is added. 0: answers are taken as they are, as in a
+  /// union.
   double support_distance_m = 0.0;
+  /// In a consensus, how far a change may grow from points that surely changed over those that no prior supports; at
+  /// least to the neighbouring shots.
+  double growth_distance_m = 0.0;
+  /// In a consensus, how far around a cluster of free points a prior must be coherent: within it, leaves and grass
+  /// sway. 0: not asked.
+  double foliage_distance_m = 0.0;
   bool clustering = true;
   double cluster_distance_m = 0.10;     ///< d: points nearer than this belong together
   std::size_t cluster_min_points = 40;  ///< m: clusters of at most this many points are noise

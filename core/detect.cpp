@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <numeric>
 
 #include "core/compare.hpp"
 #include "core/error.hpp"
+#include "core/evidence.hpp"
+#include "core/fold.hpp"
+#include "core/grow.hpp"
 
 namespace raywatch {
 namespace {
@@ -20,28 +22,6 @@ constexpr double kAnglePerSpacing = 1.6;
 constexpr double kFallbackAngle_rad = std::numbers::pi / 180.0;
 
 using Answers = std::vector<Answer>;  // of one prior, one a point
-
-/// When a prior was taken, seen from the compared scan.
-enum class Epoch : std::uint8_t { earlier, contemporary, later };
-
-Epoch epoch_of(const ScanView& prior, const ScanView& scan, Duration tolerance) {
-  const Duration age = scan.captured_at - prior.captured_at;
-  if (std::chrono::abs(age) <= tolerance) return Epoch::contemporary;
-  return age > Duration::zero() ? Epoch::earlier : Epoch::later;
-}
-
-/// The class of a point of a prior of that epoch that is free in the scan.
-PointClass class_of_prior_point(Epoch prior) {
-  switch (prior) {
-    case Epoch::earlier:
-      return PointClass::removed;
-    case Epoch::later:
-      return PointClass::added;
-    case Epoch::contemporary:
-      break;
-  }
-  return PointClass::discrepancy;
-}
 
 std::vector<std::uint8_t> valid_points(const ScanView& view) {
   const PointCloud& points = view.points;
@@ -79,83 +59,6 @@ void warn_of_coarse_rings(const ScanView& view, double angle_rad, const std::str
   warnings.emplace_back(text);
 }
 
-/// One prior's answers about one point, as the folds see them.
-struct PriorOpinion {
-  Answer answer;
-  Epoch epoch;
-};
-
-/// The published grouping: changed if free in any prior. What an earlier or later prior says comes before a
-/// contemporary one's discrepancy.
-PointClass fold_union(std::span<const PriorOpinion> opinions) {
-  bool supported = false, occluded = false, discrepancy = false, removed = false;
-  for (const auto& [answer, epoch] : opinions) {
-    if (answer == Answer::free && epoch == Epoch::earlier) return PointClass::added;
-    removed |= answer == Answer::free && epoch == Epoch::later;
-    discrepancy |= answer == Answer::free && epoch == Epoch::contemporary;
-    supported |= answer == Answer::supported;
-    occluded |= answer == Answer::occluded;
-  }
-  if (removed) return PointClass::removed;
-  if (discrepancy) return PointClass::discrepancy;
-  if (supported) return PointClass::unchanged;
-  return occluded ? PointClass::occluded : PointClass::unseen;
-}
-
-/// Evidence is weighed: within each epoch the newest prior that can test the point decides (`opinions` are ordered from
-/// the newest to the oldest; `group` numbers those that are contemporary with each other), and support within its group
-/// wins. A discrepancy needs that no prior at all supports the point.
-PointClass fold_consensus(std::span<const PriorOpinion> opinions, std::span<const std::uint32_t> group) {
-  enum class Verdict : std::uint8_t { none, free, supported };
-  struct EpochVerdict {
-    Verdict verdict = Verdict::none;
-    std::uint32_t group = 0;
-  };
-  std::array<EpochVerdict, 3> verdicts{};
-  bool supported = false, free = false, occluded = false;
-  for (std::size_t p = 0; p < opinions.size(); ++p) {
-    const auto& [answer, epoch] = opinions[p];
-    supported |= answer == Answer::supported;
-    free |= answer == Answer::free;
-    occluded |= answer == Answer::occluded;
-    if (answer != Answer::supported && answer != Answer::free) continue;
-    EpochVerdict& current = verdicts[static_cast<std::size_t>(epoch)];
-    if (current.verdict == Verdict::none) {
-      current = {answer == Answer::free ? Verdict::free : Verdict::supported, group[p]};
-    } else if (current.group == group[p] && answer == Answer::supported) {
-      current.verdict = Verdict::supported;
-    }
-  }
-  const auto is_free = [&](Epoch epoch) { return verdicts[static_cast<std::size_t>(epoch)].verdict == Verdict::free; };
-  if (is_free(Epoch::earlier)) return PointClass::added;
-  if (is_free(Epoch::later)) return PointClass::removed;
-  if (is_free(Epoch::contemporary) && !supported) return PointClass::discrepancy;
-  if (supported || free) return PointClass::unchanged;
-  return occluded ? PointClass::occluded : PointClass::unseen;
-}
-
-/// The priors from the newest to the oldest, and which of them are contemporary with each other: a group ends where the
-/// step to the next older prior is longer than the tolerance.
-struct PriorOrder {
-  std::vector<std::size_t> newest_first;
-  std::vector<std::uint32_t> group;  ///< in the order of `newest_first`
-};
-
-PriorOrder order_by_age(std::span<const ScanView> priors, Duration tolerance) {
-  PriorOrder order;
-  order.newest_first.resize(priors.size());
-  std::iota(order.newest_first.begin(), order.newest_first.end(), std::size_t{0});
-  std::stable_sort(order.newest_first.begin(), order.newest_first.end(),
-                   [&](std::size_t a, std::size_t b) { return priors[a].captured_at > priors[b].captured_at; });
-  std::uint32_t group = 0;
-  for (std::size_t k = 0; k < priors.size(); ++k) {
-    const bool gap =
-        k > 0 && priors[order.newest_first[k - 1]].captured_at - priors[order.newest_first[k]].captured_at > tolerance;
-    order.group.push_back(gap ? ++group : group);
-  }
-  return order;
-}
-
 PointCloud points_at(const PointCloud& points, std::span<const std::uint32_t> places) {
   PointCloud chosen;
   chosen.reserve(places.size());
@@ -167,7 +70,10 @@ PointCloud points_at(const PointCloud& points, std::span<const std::uint32_t> pl
 class Detector {
  public:
   Detector(const ScanView& scan, std::span<const ScanView> priors, const CompareParameters& parameters)
-      : scan_(scan), priors_(priors), parameters_(parameters) {
+      : scan_(scan),
+        priors_(priors),
+        parameters_(parameters),
+        weighs_(parameters.grouping == Grouping::consensus && parameters.support_distance_m > 0.0) {
     for (const ScanView& prior : priors) {
       epochs_.push_back(epoch_of(prior, scan, parameters.contemporary_tolerance));
       angles_rad_.push_back(angle_for(prior, parameters));
@@ -179,10 +85,11 @@ class Detector {
     Detection detection;
     warn(detection);
     const std::vector<std::uint8_t> valid = valid_points(scan_);
-    detection.answers = ask_priors(scan_.points, valid, scan_.world_from_sensor);
-    judge_by_surfaces(detection.answers);
-    ask_for_near_support(detection.answers);
-    fold(valid, detection.answers, detection);
+    detection.answers = ask_priors(valid);
+    weigh_answers(detection.answers);
+    detection.classes = fold(valid, detection.answers);
+    grow_over_scan(detection);
+    count_answers(valid, detection);
     for (std::uint32_t p = 0; p < priors_.size(); ++p) find_changed_points_of(p, detection);
     detection.angle_rad = angles_rad_;
     return detection;
@@ -197,77 +104,40 @@ class Detector {
     }
   }
 
-  Thresholds thresholds_of(std::size_t prior) const { return {angles_rad_[prior], parameters_.range_m}; }
+  Thresholds thresholds_for(const ScanView& asked) const {
+    return {angle_for(asked, parameters_), parameters_.range_m};
+  }
 
-  std::vector<Answers> ask_priors(const PointCloud& points, std::span<const std::uint8_t> valid,
-                                  const Pose& world_from_points) const {
-    std::vector<Answers> answers(priors_.size(), Answers(points.size()));
+  std::vector<Answers> ask_priors(std::span<const std::uint8_t> valid) const {
+    std::vector<Answers> answers(priors_.size(), Answers(scan_.points.size()));
     for (std::size_t p = 0; p < priors_.size(); ++p) {
-      const Pose prior_from_points = priors_[p].world_from_sensor.inverse() * world_from_points;
-      ask(priors_[p].index, points, valid, prior_from_points, thresholds_of(p), answers[p]);
+      const Pose prior_from_scan = priors_[p].world_from_sensor.inverse() * scan_.world_from_sensor;
+      ask(priors_[p].index, scan_.points, valid, prior_from_scan, thresholds_for(priors_[p]), answers[p]);
     }
     return answers;
   }
 
-  bool asks_for_near_support() const {
-    return parameters_.grouping == Grouping::consensus && parameters_.support_distance_m > 0.0;
+  /// Looks more closely at what `asked` answered about some points of `view`.
+  void weigh_at(const ScanView& asked, const ScanView& view, std::span<const std::uint32_t> places,
+                Answers& answers) const {
+    Answers chosen;
+    for (const std::uint32_t i : places) chosen.push_back(answers[i]);
+    weigh(asked.index, points_at(view.points, places), asked.world_from_sensor.inverse() * view.world_from_sensor,
+          thresholds_for(asked), tolerance_between(asked, view, parameters_), chosen);
+    for (std::size_t k = 0; k < places.size(); ++k) answers[places[k]] = chosen[k];
   }
 
-  /// Where a prior calls points free or cannot decide, its surface there is looked at more closely.
-  void judge_by_surfaces(std::vector<Answers>& answers) const {
-    if (!asks_for_near_support()) return;
-    for (std::size_t p = 0; p < priors_.size(); ++p) {
-      judge_by_surface_of(priors_[p], thresholds_of(p), scan_, answers[p]);
-    }
-  }
-
-  void judge_by_surface_of(const ScanView& asked, const Thresholds& thresholds, const ScanView& view,
-                           Answers& answers) const {
+  /// Where a prior calls a point free or cannot decide, all priors are weighed.
+  void weigh_answers(std::vector<Answers>& answers) const {
+    if (!weighs_) return;
     std::vector<std::uint32_t> places;
-    Answers open;
-    for (std::uint32_t i = 0; i < answers.size(); ++i) {
-      if (answers[i] != Answer::free && answers[i] != Answer::ambiguous) continue;
-      places.push_back(i);
-      open.push_back(answers[i]);
-    }
-    judge_by_surface(asked.index, points_at(view.points, places),
-                     asked.world_from_sensor.inverse() * view.world_from_sensor, thresholds,
-                     parameters_.support_distance_m, open);
-    for (std::size_t k = 0; k < places.size(); ++k) answers[places[k]] = open[k];
-  }
-
-  /// Of the points that some prior calls free, those that a prior has a return near are supported by it after all.
-  void ask_for_near_support(std::vector<Answers>& answers) const {
-    if (!asks_for_near_support()) return;
-    std::vector<std::uint32_t> free;
     for (std::uint32_t i = 0; i < scan_.points.size(); ++i) {
-      const bool is_free = std::any_of(answers.begin(), answers.end(),
-                                       [&](const Answers& of_prior) { return of_prior[i] == Answer::free; });
-      if (is_free) free.push_back(i);
-    }
-    const PointCloud points = points_at(scan_.points, free);
-    std::vector<std::uint8_t> near(points.size());
-    for (std::size_t p = 0; p < priors_.size(); ++p) {
-      find_near_returns(priors_[p].index, points, priors_[p].world_from_sensor.inverse() * scan_.world_from_sensor,
-                        parameters_.support_distance_m, near);
-      for (std::size_t k = 0; k < free.size(); ++k) {
-        if (near[k]) answers[p][free[k]] = Answer::supported;
+      if (std::any_of(answers.begin(), answers.end(),
+                      [&](const Answers& of_prior) { return is_undecided(of_prior[i]); })) {
+        places.push_back(i);
       }
     }
-  }
-
-  /// The same for the points of a prior that the scan calls free: those that are near a return of the scan are not.
-  void drop_near_candidates(const ScanView& prior, std::vector<std::uint32_t>& candidates) const {
-    if (!asks_for_near_support()) return;
-    const PointCloud points = points_at(prior.points, candidates);
-    std::vector<std::uint8_t> near(points.size());
-    find_near_returns(scan_.index, points, scan_.world_from_sensor.inverse() * prior.world_from_sensor,
-                      parameters_.support_distance_m, near);
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-      if (!near[k]) candidates[kept++] = candidates[k];
-    }
-    candidates.resize(kept);
+    for (std::size_t p = 0; p < priors_.size(); ++p) weigh_at(priors_[p], scan_, places, answers[p]);
   }
 
   PointClass fold_one(std::span<const Answers> answers, std::size_t i, std::vector<PriorOpinion>& opinions) const {
@@ -278,17 +148,60 @@ class Detector {
     return parameters_.grouping == Grouping::union_ ? fold_union(opinions) : fold_consensus(opinions, order_.group);
   }
 
-  void fold(std::span<const std::uint8_t> valid, std::span<const Answers> answers, Detection& detection) const {
+  std::vector<PointClass> fold(std::span<const std::uint8_t> valid, std::span<const Answers> answers) const {
+    std::vector<PointClass> classes(scan_.points.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, classes.size(), 16384), [&](const auto& block) {
+      std::vector<PriorOpinion> opinions(priors_.size());
+      for (std::size_t i = block.begin(); i < block.end(); ++i) {
+        classes[i] = valid[i] ? fold_one(answers, i, opinions) : PointClass::invalid;
+      }
+    });
+    return classes;
+  }
+
+  bool grows() const { return weighs_ && parameters_.clustering; }
+
+  /// The points of the scan beside changes that no prior supports.
+  void grow_over_scan(Detection& detection) const {
+    if (!grows()) return;
+    const std::vector<Candidate> candidates = candidates_of_scan(detection);
+    const auto is_open = [&](std::span<const std::uint32_t> places) {
+      for (std::size_t p = 0; p < priors_.size(); ++p) weigh_at(priors_[p], scan_, places, detection.answers[p]);
+      std::vector<std::uint8_t> open;
+      std::vector<PriorOpinion> opinions(priors_.size());
+      for (const std::uint32_t i : places) {
+        open.push_back(fold_one(detection.answers, i, opinions) != PointClass::unchanged);
+      }
+      return open;
+    };
+    for (const Candidate& candidate : candidates) detection.classes[candidate.index] = PointClass::unchanged;
+    for (const auto& [i, point_class] : grow(scan_, candidates, priors_, parameters_, is_open)) {
+      detection.classes[i] = point_class;
+    }
+  }
+
+  /// What is free in any prior; contradicted if the priors together say otherwise.
+  std::vector<Candidate> candidates_of_scan(const Detection& detection) const {
+    std::vector<Candidate> candidates;
+    std::vector<PriorOpinion> opinions(priors_.size());
+    for (std::uint32_t i = 0; i < detection.classes.size(); ++i) {
+      const PointClass decided = detection.classes[i];
+      if (decided == PointClass::invalid) continue;
+      for (std::size_t p = 0; p < priors_.size(); ++p) opinions[p] = {detection.answers[p][i], epochs_[p]};
+      const PointClass any = fold_union(opinions);
+      if (is_change(any)) candidates.push_back({i, is_change(decided) ? decided : any, !is_change(decided)});
+    }
+    return candidates;
+  }
+
+  void count_answers(std::span<const std::uint8_t> valid, Detection& detection) const {
     const std::size_t n = scan_.points.size();
-    detection.classes.resize(n);
     detection.free.resize(n);
     detection.supported.resize(n);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 16384), [&](const auto& block) {
-      std::vector<PriorOpinion> opinions(priors_.size());
       for (std::size_t i = block.begin(); i < block.end(); ++i) {
-        detection.classes[i] = valid[i] ? fold_one(answers, i, opinions) : PointClass::invalid;
         if (!valid[i]) continue;
-        for (const Answers& of_prior : answers) {
+        for (const Answers& of_prior : detection.answers) {
           detection.free[i] = static_cast<std::uint8_t>(detection.free[i] + (of_prior[i] == Answer::free));
           detection.supported[i] =
               static_cast<std::uint8_t>(detection.supported[i] + (of_prior[i] == Answer::supported));
@@ -308,51 +221,112 @@ class Detector {
     const ScanView& prior = priors_[p];
     const std::vector<std::uint8_t> valid = valid_points(prior);
     Answers answers(prior.points.size());
-    const Thresholds thresholds{angle_for(scan_, parameters_), parameters_.range_m};
-    ask(scan_.index, prior.points, valid, scan_.world_from_sensor.inverse() * prior.world_from_sensor, thresholds,
-        answers);
-    if (asks_for_near_support()) judge_by_surface_of(scan_, thresholds, prior, answers);
-    std::vector<std::uint32_t> candidates;
-    for (std::uint32_t i = 0; i < answers.size(); ++i) {
-      if (answers[i] == Answer::free) candidates.push_back(i);
+    ask(scan_.index, prior.points, valid, scan_.world_from_sensor.inverse() * prior.world_from_sensor,
+        thresholds_for(scan_), answers);
+    if (weighs_) weigh_at(scan_, prior, places_of(answers, is_undecided), answers);
+    const std::vector<std::uint32_t> free = places_of(answers, [](Answer answer) { return answer == Answer::free; });
+    if (parameters_.grouping == Grouping::union_) return add_prior_points(p, free, detection);
+    const std::vector<Candidate> candidates = candidates_of_prior(p, free);
+    std::vector<std::uint32_t> changed;
+    if (grows()) {
+      changed = grow_over_prior(p, answers, candidates);
+    } else {
+      for (const Candidate& candidate : candidates) {
+        if (!candidate.contradicted) changed.push_back(candidate.index);
+      }
     }
-    drop_near_candidates(prior, candidates);
-    add_prior_points(p, candidates, detection);
+    add_prior_points(p, changed, detection);
   }
 
-  /// What the other priors say about the candidates. In a consensus, a prior that is newer than the candidate's own and
-  /// can test the point decides: if it saw the place free, or if one of the scan's time supports the point, then
-  /// nothing was removed since.
-  void add_prior_points(std::uint32_t p, std::span<const std::uint32_t> candidates, Detection& detection) const {
-    if (candidates.empty()) return;
-    const PointCloud points = points_at(priors_[p].points, candidates);
+  template <class Predicate>
+  static std::vector<std::uint32_t> places_of(const Answers& answers, Predicate predicate) {
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t i = 0; i < answers.size(); ++i) {
+      if (predicate(answers[i])) places.push_back(i);
+    }
+    return places;
+  }
+
+  std::vector<Candidate> candidates_of_prior(std::uint32_t p, std::span<const std::uint32_t> free) const {
+    const std::vector<std::uint8_t> refuted = refuted_points(p, free);
+    std::vector<Candidate> candidates;
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      candidates.push_back({free[k], class_of_prior_point(epochs_[p]), refuted[k] != 0});
+    }
+    return candidates;
+  }
+
+  std::vector<std::uint32_t> grow_over_prior(std::uint32_t p, Answers& answers,
+                                             std::span<const Candidate> candidates) const {
+    const auto is_open = [&](std::span<const std::uint32_t> places) {
+      weigh_at(scan_, priors_[p], places, answers);
+      const std::vector<std::uint8_t> refuted = refuted_points(p, places);
+      std::vector<std::uint8_t> open;
+      for (std::size_t k = 0; k < places.size(); ++k)
+        open.push_back(answers[places[k]] != Answer::supported && !refuted[k]);
+      return open;
+    };
+    std::vector<std::uint32_t> changed;
+    for (const auto& [i, point_class] : grow(priors_[p], candidates, {&scan_, 1}, parameters_, is_open)) {
+      changed.push_back(i);
+    }
+    return changed;
+  }
+
+  /// What prior `q` says about points of prior `p`.
+  Answers ask_about_prior(std::size_t q, std::uint32_t p, const PointCloud& points) const {
     const std::vector<std::uint8_t> valid(points.size(), 1);
-    std::vector<PriorPointVotes> votes(points.size());
-    std::vector<std::uint8_t> refuted(points.size(), 0);
     Answers answers(points.size());
+    const Pose q_from_p = priors_[q].world_from_sensor.inverse() * priors_[p].world_from_sensor;
+    ask(priors_[q].index, points, valid, q_from_p, thresholds_for(priors_[q]), answers);
+    if (weighs_) {
+      weigh(priors_[q].index, points, q_from_p, thresholds_for(priors_[q]),
+            tolerance_between(priors_[q], priors_[p], parameters_), answers);
+    }
+    return answers;
+  }
+
+  /// A prior that is newer than `p` and can test the point decides: if it saw the place free, or if one of the scan's
+  /// time supports the point, then nothing was removed since.
+  std::vector<std::uint8_t> refuted_points(std::uint32_t p, std::span<const std::uint32_t> places) const {
+    std::vector<std::uint8_t> refuted(places.size(), 0);
+    const PointCloud points = points_at(priors_[p].points, places);
     for (std::size_t q = 0; q < priors_.size(); ++q) {
-      if (q == p) continue;
-      ask(priors_[q].index, points, valid, priors_[q].world_from_sensor.inverse() * priors_[p].world_from_sensor,
-          thresholds_of(q), answers);
       const bool newer = priors_[q].captured_at > priors_[p].captured_at + parameters_.contemporary_tolerance;
       const bool same_time_as_scan = epochs_[q] == Epoch::contemporary;
-      for (std::size_t i = 0; i < answers.size(); ++i) {
-        votes[i].free = static_cast<std::uint8_t>(votes[i].free + (answers[i] == Answer::free));
-        votes[i].supported = static_cast<std::uint8_t>(votes[i].supported + (answers[i] == Answer::supported));
-        refuted[i] |= same_time_as_scan ? answers[i] == Answer::supported : newer && answers[i] == Answer::free;
+      if (q == p || !(newer || same_time_as_scan)) continue;
+      const Answers answers = ask_about_prior(q, p, points);
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        refuted[k] |= same_time_as_scan ? answers[k] == Answer::supported : answers[k] == Answer::free;
+      }
+    }
+    return refuted;
+  }
+
+  void add_prior_points(std::uint32_t p, std::span<const std::uint32_t> changed, Detection& detection) const {
+    const PointCloud points = points_at(priors_[p].points, changed);
+    std::vector<PriorPointVotes> votes(changed.size());
+    for (std::size_t q = 0; q < priors_.size(); ++q) {
+      if (q == p || changed.empty()) continue;
+      const Answers answers = ask_about_prior(q, p, points);
+      for (std::size_t k = 0; k < changed.size(); ++k) {
+        votes[k].free = static_cast<std::uint8_t>(votes[k].free + (answers[k] == Answer::free));
+        votes[k].supported = static_cast<std::uint8_t>(votes[k].supported + (answers[k] == Answer::supported));
       }
     }
     const PointClass point_class = class_of_prior_point(epochs_[p]);
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (parameters_.grouping == Grouping::consensus && refuted[i]) continue;
-      detection.prior_points.push_back({.prior = p, .index = candidates[i], .point_class = point_class});
-      detection.prior_votes.push_back(votes[i]);
+    for (std::size_t k = 0; k < changed.size(); ++k) {
+      detection.prior_points.push_back({.prior = p, .index = changed[k], .point_class = point_class});
+      detection.prior_votes.push_back(votes[k]);
     }
   }
+
+  static bool is_undecided(Answer answer) { return answer == Answer::free || answer == Answer::ambiguous; }
 
   const ScanView& scan_;
   std::span<const ScanView> priors_;
   const CompareParameters& parameters_;
+  bool weighs_;
   std::vector<Epoch> epochs_;
   std::vector<double> angles_rad_;
   PriorOrder order_;
@@ -367,6 +341,10 @@ void check(const CompareParameters& parameters, std::size_t priors) {
   require(angle > 0.0 && angle <= std::numbers::pi / 2, "angle_deg", "must be above 0 and at most 90");
   require(std::isfinite(parameters.range_m) && parameters.range_m >= 0.0, "range_m", "must be 0 or more");
   require(std::isfinite(parameters.support_distance_m) && parameters.support_distance_m >= 0.0, "support_distance_m",
+          "must be 0 or more");
+  require(std::isfinite(parameters.growth_distance_m) && parameters.growth_distance_m >= 0.0, "growth_distance_m",
+          "must be 0 or more");
+  require(std::isfinite(parameters.foliage_distance_m) && parameters.foliage_distance_m >= 0.0, "foliage_distance_m",
           "must be 0 or more");
   require(std::isfinite(parameters.cluster_distance_m) && parameters.cluster_distance_m > 0.0, "cluster_distance_m",
           "must be above 0");

@@ -4,6 +4,8 @@
 
 #include "core/cluster.hpp"
 #include "core/compare.hpp"
+#include "core/fold.hpp"
+#include "core/grow.hpp"
 
 namespace raywatch {
 namespace {
@@ -28,24 +30,26 @@ struct ChangedPoint {
   double free = 0.0, supported = 0.0;  ///< shares of the priors
   std::uint32_t place = 0;             ///< in the scan, or in `Detection::prior_points`
   bool of_scan = true;
+  float reach_m = 0.0f;
 };
 
 std::vector<ChangedPoint> changed_points(ChangeKind kind, const ScanView& scan, std::span<const ScanView> priors,
-                                         const Detection& detection) {
+                                         const CompareParameters& parameters, const Detection& detection) {
   const PointClass wanted = class_of(kind);
   const auto voters = static_cast<double>(std::max<std::size_t>(priors.size(), 1));
   std::vector<ChangedPoint> points;
   for (std::uint32_t i = 0; i < detection.classes.size(); ++i) {
     if (detection.classes[i] != wanted) continue;
     points.push_back({scan.world_from_sensor * scan.points[i].cast<double>(), detection.free[i] / voters,
-                      detection.supported[i] / voters, i, true});
+                      detection.supported[i] / voters, i, true, reach_m(scan, scan.points[i], parameters)});
   }
   for (std::uint32_t k = 0; k < detection.prior_points.size(); ++k) {
     const PriorPoint& point = detection.prior_points[k];
     if (point.point_class != wanted) continue;
     const ScanView& prior = priors[point.prior];
     points.push_back({prior.world_from_sensor * prior.points[point.index].cast<double>(),
-                      detection.prior_votes[k].free / voters, detection.prior_votes[k].supported / voters, k, false});
+                      detection.prior_votes[k].free / voters, detection.prior_votes[k].supported / voters, k, false,
+                      reach_m(prior, prior.points[point.index], parameters)});
   }
   return points;
 }
@@ -55,9 +59,12 @@ using Members = std::vector<std::uint32_t>;  // places in the list of changed po
 /// The clusters of more than `cluster_min_points` points.
 std::vector<Members> kept_clusters(const std::vector<ChangedPoint>& points, const CompareParameters& parameters) {
   std::vector<Eigen::Vector3f> positions_m;
-  positions_m.reserve(points.size());
-  for (const ChangedPoint& point : points) positions_m.push_back(point.world_m.cast<float>());
-  const std::vector<std::uint32_t> cluster_of = cluster_points(positions_m, parameters.cluster_distance_m);
+  std::vector<float> reaches_m;
+  for (const ChangedPoint& point : points) {
+    positions_m.push_back(point.world_m.cast<float>());
+    reaches_m.push_back(point.reach_m);
+  }
+  const std::vector<std::uint32_t> cluster_of = cluster_points(positions_m, reaches_m);
   std::vector<Members> clusters;
   for (std::uint32_t i = 0; i < cluster_of.size(); ++i) {
     if (cluster_of[i] >= clusters.size()) clusters.resize(cluster_of[i] + 1);
@@ -111,11 +118,6 @@ std::vector<FoundChange> find_changes(ChangeKind kind, const std::vector<Changed
   return found;
 }
 
-bool is_change(PointClass point_class) {
-  return point_class == PointClass::added || point_class == PointClass::removed ||
-         point_class == PointClass::discrepancy;
-}
-
 /// A changed point in no kept cluster counts as unchanged.
 void drop_noise(Comparison& comparison) {
   for (std::size_t i = 0; i < comparison.classes.size(); ++i) {
@@ -145,7 +147,7 @@ Comparison form_changes(const ScanView& scan, std::span<const ScanView> priors, 
   comparison.change_of.assign(detection.classes.size(), -1);
   if (parameters.clustering) {
     for (const ChangeKind kind : kKinds) {
-      const std::vector<ChangedPoint> points = changed_points(kind, scan, priors, detection);
+      const std::vector<ChangedPoint> points = changed_points(kind, scan, priors, parameters, detection);
       for (FoundChange& found : find_changes(kind, points, parameters)) {
         const auto number = static_cast<std::int32_t>(comparison.changes.size());
         for (const std::uint32_t member : found.members) {

@@ -134,6 +134,18 @@ PriorIndex PriorIndex::build(const PointCloud& points, const UsableRange& usable
   return PriorIndex(std::move(impl));
 }
 
+std::vector<std::uint32_t> sources_of(const PriorIndex::Impl& index, const PointCloud& points) {
+  std::vector<std::uint32_t> sources(index.returns.size());
+  if (sources.empty()) return sources;
+  RawArray<std::uint32_t> cells(points.size());
+  assign_cells(planes_of(points), index.usable, index.grid.view(), cells.data());
+  std::vector<std::uint32_t> next(index.first.begin(), index.first.end());
+  for (std::uint32_t i = 0; i < cells.size(); ++i) {
+    if (cells[i] != kNoCell) sources[next[cells[i]]++] = i;
+  }
+  return sources;
+}
+
 PriorIndex::PriorIndex(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 PriorIndex::PriorIndex(PriorIndex&&) noexcept = default;
 PriorIndex& PriorIndex::operator=(PriorIndex&&) noexcept = default;

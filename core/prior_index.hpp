@@ -56,14 +56,6 @@ class PriorIndex {
 void ask(const PriorIndex& prior, const PointCloud& points, std::span<const std::uint8_t> valid,
          const Pose& prior_from_points, const Thresholds& thresholds, std::span<Answer> answers);
 
-/// Judges points that `ask` answered free or ambiguous by the prior's surface around their direction, where it is flat:
-/// the published test takes that surface as constant at its least range, which is blind at grazing incidence. The plane
-/// is fitted to the returns within T_a; where they do not surround the point, or one of them is farther from the plane
-/// than `support_distance_m`, the answer stays. Else: nearer to the plane than that: supported; behind it: occluded;
-/// before it, with the plane at rho + T_r or beyond: free.
-void judge_by_surface(const PriorIndex& prior, const PointCloud& points, const Pose& prior_from_points,
-                      const Thresholds& thresholds, double support_distance_m, std::span<Answer> answers);
-
 /// For each point whether a return of `prior` lies nearer to it than `distance_m` (> 0), in any direction.
 void find_near_returns(const PriorIndex& prior, const PointCloud& points, const Pose& prior_from_points,
                        double distance_m, std::span<std::uint8_t> near);

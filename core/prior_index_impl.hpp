@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <vector>
 
 #include "core/direction_grid.hpp"
 #include "core/prior_index.hpp"
@@ -29,5 +30,8 @@ struct PriorIndex::Impl {
   RawArray<std::uint32_t> first;        ///< first return of each cell, and the number of returns
   RawArray<float> least_m, greatest_m;  ///< ranges of each cell's returns; infinity and -infinity where it is empty
 };
+
+/// The place in the scan of each return of its index, which is made anew in O(n): only few comparisons need it.
+std::vector<std::uint32_t> sources_of(const PriorIndex::Impl& index, const PointCloud& points);
 
 }  // namespace raywatch

@@ -36,22 +36,29 @@ CompareParameters default_parameters(Profile profile, Grouping grouping) {
   }
   switch (profile) {
     case Profile::indoor:
-      parameters.support_distance_m = 0.08;
       parameters.range_m = 0.10;
+      parameters.support_distance_m = 0.03;
+      parameters.growth_distance_m = 0.15;
       parameters.cluster_distance_m = 0.10;
-      parameters.cluster_min_points = 20;
+      parameters.cluster_min_points = 9;
+      parameters.min_range_m = 0.75;
       break;
     case Profile::outdoor:
-      parameters.support_distance_m = 0.20;
-      parameters.range_m = 0.25;
-      parameters.cluster_distance_m = 0.40;
-      parameters.cluster_min_points = 12;
+      parameters.range_m = 0.15;
+      parameters.support_distance_m = 0.06;
+      parameters.growth_distance_m = 0.4;
+      parameters.foliage_distance_m = 0.8;
+      parameters.cluster_distance_m = 0.30;
+      parameters.cluster_min_points = 9;
+      parameters.min_range_m = 0.75;
       break;
     case Profile::survey:
-      parameters.support_distance_m = 0.20;
-      parameters.range_m = 0.25;
-      parameters.cluster_distance_m = 1.0;
-      parameters.cluster_min_points = 40;
+      parameters.range_m = 0.20;
+      parameters.support_distance_m = 0.10;
+      parameters.growth_distance_m = 0.6;
+      parameters.foliage_distance_m = 1.0;
+      parameters.cluster_distance_m = 0.6;
+      parameters.cluster_min_points = 20;
       break;
   }
   return parameters;

@@ -82,6 +82,8 @@ Json parameters_json(const CompareParameters& p) {
           {"angle_deg", p.angle_rad ? Json(*p.angle_rad / kDegree) : Json(nullptr)},
           {"range_m", p.range_m},
           {"support_distance_m", p.support_distance_m},
+          {"growth_distance_m", p.growth_distance_m},
+          {"foliage_distance_m", p.foliage_distance_m},
           {"clustering", p.clustering},
           {"cluster_distance_m", p.cluster_distance_m},
           {"cluster_min_points", p.cluster_min_points},

@@ -68,8 +68,10 @@ CompareParameters read_parameters(const Json& json) {
   return {.grouping = enum_from_text(json.at("grouping").get<std::string>(), {Grouping::union_, Grouping::consensus}),
           .angle_rad = get(json, "angle_rad"),
           .range_m = json.at("range_m").get<double>(),
-          // Comparisons that were stored before there was such a distance did not ask for it.
+          // Comparisons that were stored before there were such distances did not ask for them.
           .support_distance_m = get(json, "support_distance_m").value_or(0.0),
+          .growth_distance_m = get(json, "growth_distance_m").value_or(0.0),
+          .foliage_distance_m = get(json, "foliage_distance_m").value_or(0.0),
           .clustering = json.at("clustering").get<bool>(),
           .cluster_distance_m = json.at("cluster_distance_m").get<double>(),
           .cluster_min_points = json.at("cluster_min_points").get<std::size_t>(),
@@ -140,6 +142,8 @@ std::string parameters_json(const CompareParameters& parameters) {
   Json json = {{"grouping", to_string(parameters.grouping)},
                {"range_m", finite(parameters.range_m, "range_m")},
                {"support_distance_m", finite(parameters.support_distance_m, "support_distance_m")},
+               {"growth_distance_m", finite(parameters.growth_distance_m, "growth_distance_m")},
+               {"foliage_distance_m", finite(parameters.foliage_distance_m, "foliage_distance_m")},
                {"clustering", parameters.clustering},
                {"cluster_distance_m", finite(parameters.cluster_distance_m, "cluster_distance_m")},
                {"cluster_min_points", parameters.cluster_min_points},

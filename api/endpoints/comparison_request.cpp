@@ -30,6 +30,8 @@ CompareParameters parse_parameters(JsonObject& body, Profile profile) {
   if (const auto angle_deg = body.real("angle_deg", kAngle_deg)) parameters.angle_rad = radians_of_deg(*angle_deg);
   assign(body.real("range_m", kThreshold_m), parameters.range_m);
   assign(body.real("support_distance_m", kThreshold_m), parameters.support_distance_m);
+  assign(body.real("growth_distance_m", kThreshold_m), parameters.growth_distance_m);
+  assign(body.real("foliage_distance_m", kThreshold_m), parameters.foliage_distance_m);
   assign(body.flag("clustering"), parameters.clustering);
   assign(body.real("cluster_distance_m", kDistance_m), parameters.cluster_distance_m);
   if (const auto points = body.integer("cluster_min_points", kMinPoints)) {
@@ -43,8 +45,9 @@ CompareParameters parse_parameters(JsonObject& body, Profile profile) {
   assign(body.flag("align"), parameters.align);
   if (parameters.align && grouping == Grouping::union_) body.fail("align", "must be false for union");
   if (parameters.min_range_m > parameters.max_range_m) body.fail("min_range_m", "must not be above max_range_m");
-  for (const char* name : {"grouping", "range_m", "support_distance_m", "clustering", "cluster_distance_m",
-                           "cluster_min_points", "min_range_m", "max_range_m", "contemporary_s", "align"})
+  for (const char* name :
+       {"grouping", "range_m", "support_distance_m", "growth_distance_m", "foliage_distance_m", "clustering",
+        "cluster_distance_m", "cluster_min_points", "min_range_m", "max_range_m", "contemporary_s", "align"})
     body.refuse_null(name);
   body.finish();
   return parameters;

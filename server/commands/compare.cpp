@@ -38,7 +38,8 @@ struct Options {
   std::string scan;
   std::vector<std::string> priors;
   std::string grouping = "consensus", profile = "indoor";
-  std::optional<double> angle_deg, range_m, support_distance_m, cluster_distance_m, min_range_m, max_range_m;
+  std::optional<double> angle_deg, range_m, support_distance_m, growth_distance_m, foliage_distance_m,
+      cluster_distance_m, min_range_m, max_range_m;
   std::optional<std::size_t> cluster_min_points;
   bool no_cluster = false, no_align = false;
   double contemporary_s = 0.0;
@@ -52,6 +53,8 @@ CompareParameters parameters_of(const Options& options) {
   p.range_m = options.range_m.value_or(p.range_m);
   p.support_distance_m = options.support_distance_m.value_or(p.support_distance_m);
   p.align = p.align && !options.no_align;
+  p.growth_distance_m = options.growth_distance_m.value_or(p.growth_distance_m);
+  p.foliage_distance_m = options.foliage_distance_m.value_or(p.foliage_distance_m);
   p.clustering = p.clustering && !options.no_cluster;
   p.cluster_distance_m = options.cluster_distance_m.value_or(p.cluster_distance_m);
   p.cluster_min_points = options.cluster_min_points.value_or(p.cluster_min_points);
@@ -111,7 +114,15 @@ void add_compare(CLI::App& program, Run& run) {
       ->check(CLI::Range(0.0, 1e6));
   command
       ->add_option("--support-distance-m", options->support_distance_m,
-                   "In a consensus, a prior's return nearer than this supports a point; 0: not asked")
+                   "In a consensus, how rough surfaces are; 0: answers are not weighed")
+      ->check(CLI::Range(0.0, 1e3));
+  command
+      ->add_option("--growth-distance-m", options->growth_distance_m,
+                   "In a consensus, how far a change grows over points that no prior supports")
+      ->check(CLI::Range(0.0, 1e3));
+  command
+      ->add_option("--foliage-distance-m", options->foliage_distance_m,
+                   "In a consensus, how far around a change a prior must not look like foliage; 0: not asked")
       ->check(CLI::Range(0.0, 1e3));
   command
       ->add_option("--cluster-distance-m", options->cluster_distance_m,

@@ -102,10 +102,19 @@ TEST_CASE("a stored scan is compared again with named scans and parameters") {
   api.make_site_and_sensor();
   const json empty = api.upload(0);
   const json with_box = api.upload(1, {.box = true});
-  const json parameters = {{"grouping", "union"},     {"angle_deg", 1.2},           {"range_m", 0.3},
-                           {"clustering", false},     {"support_distance_m", 0.07}, {"cluster_distance_m", 0.4},
-                           {"cluster_min_points", 7}, {"min_range_m", 0.5},         {"max_range_m", 80.0},
-                           {"contemporary_s", 2.5},    {"align", false}};
+  const json parameters = {{"grouping", "union"},
+                           {"angle_deg", 1.2},
+                           {"range_m", 0.3},
+                           {"clustering", false},
+                           {"support_distance_m", 0.07},
+                           {"growth_distance_m", 0.2},
+                           {"foliage_distance_m", 0.6},
+                           {"cluster_distance_m", 0.4},
+                           {"cluster_min_points", 7},
+                           {"min_range_m", 0.5},
+                           {"max_range_m", 80.0},
+                           {"contemporary_s", 2.5},
+                           {"align", false}};
   const json reference = {{"scans", {empty["id"]}}};
   const Reply queued =
       api.post("/api/v1/comparisons", {{"scan", with_box["id"]}, {"reference", reference}, {"parameters", parameters}});

@@ -202,44 +202,6 @@ TEST_CASE(
   for (const std::size_t count : seen) CHECK(count > total / 200);  // the scenes ask for every answer
 }
 
-/// The ground two metres below the sensor, as rings half a degree apart see it.
-PointCloud ground() {
-  PointCloud cloud;
-  for (double elevation = -20.0; elevation <= -4.0; elevation += 0.5) {
-    for (double azimuth = -10.0; azimuth <= 10.0; azimuth += 0.3) {
-      add(cloud, at(azimuth, elevation, 2.0 / std::sin(radians(-elevation))));
-    }
-  }
-  return cloud;
-}
-
-Answer judged(const PointCloud& prior, const Eigen::Vector3d& point_m, Answer before) {
-  const PriorIndex index = PriorIndex::build(prior, {});
-  std::vector<Answer> answers{before};
-  judge_by_surface(index, one(point_m), Pose{}, {.angle_rad = radians(0.75), .range_m = 0.25}, 0.1, answers);
-  return answers.front();
-}
-
-TEST_CASE("at grazing incidence a low thing on the ground is ambiguous to the bare test and free before the surface") {
-  const Eigen::Vector3d low_thing(20.0, 0.2, -1.85);  // 15 cm above the ground
-  CHECK(answer_of(ground(), low_thing, {.angle_rad = radians(0.75), .range_m = 0.25}) == Answer::ambiguous);
-  CHECK(judged(ground(), low_thing, Answer::ambiguous) == Answer::free);
-}
-
-TEST_CASE("what lies on the surface within the support distance is supported, what lies below it occluded") {
-  CHECK(judged(ground(), {11.0, 0.2, -1.95}, Answer::free) == Answer::supported);
-  CHECK(judged(ground(), {11.0, 0.2, -2.05}, Answer::ambiguous) == Answer::supported);
-  CHECK(judged(ground(), {11.0, 0.2, -2.3}, Answer::ambiguous) == Answer::occluded);
-}
-
-TEST_CASE("where the surface is not flat or does not surround the point the answer stays") {
-  PointCloud step = ground();
-  add(step, 0.9 * Eigen::Vector3d(11.0, 0.2, -1.75));
-  CHECK(judged(step, {11.0, 0.2, -1.75}, Answer::ambiguous) == Answer::ambiguous);
-  CHECK(judged(ground(), at(10.4, -10, 8.0), Answer::ambiguous) == Answer::ambiguous);
-  CHECK(judged(PointCloud{}, {11.0, 0.2, -1.75}, Answer::ambiguous) == Answer::ambiguous);
-}
-
 TEST_CASE("near returns are found in every direction, also across the seam and behind the point") {
   const PriorIndex index = PriorIndex::build(patch(180, 0, 8.0), {});
   const auto is_near = [&](const Eigen::Vector3d& point_m, double distance_m) {

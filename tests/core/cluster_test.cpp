@@ -107,5 +107,16 @@ TEST_CASE("the numbering follows the first point of each cluster") {
         std::vector<std::uint32_t>{0, 1, 0, 2});
 }
 
+TEST_CASE("with a reach for every point, two belong together when nearer than the smaller of their reaches") {
+  const Points points{{0, 0, 0}, {0.15f, 0, 0}, {10, 0, 0}, {10.35f, 0, 0}, {10.5f, 0, 0}};
+  CHECK(cluster_points(points, std::vector<float>{0.1f, 0.5f, 0.5f, 0.5f, 0.1f}) ==
+        std::vector<std::uint32_t>{0, 1, 2, 2, 3});
+}
+
+TEST_CASE("equal reaches are one distance") {
+  const Points points = random_points(7, 300, 1.0);
+  CHECK(cluster_points(points, std::vector<float>(points.size(), 0.1f)) == cluster_points(points, 0.1f));
+}
+
 }  // namespace
 }  // namespace raywatch

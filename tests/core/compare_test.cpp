@@ -393,8 +393,9 @@ TEST_CASE("a common rigid motion of the world changes nothing") {
     const RandomRoom rooms = random_room(seed);
     const Pose moved_from_world{Eigen::Quaterniond(unit(random), unit(random), unit(random), unit(random)).normalized(),
                                 1000.0 * Eigen::Vector3d(unit(random), unit(random), unit(random))};
-    CompareParameters with = parameters(Grouping::union_);
-    with.clustering = false;
+    const auto grouping = *rc::gen::elementOf(std::vector<Grouping>(std::begin(kBoth), std::end(kBoth)));
+    CompareParameters with = parameters(grouping);
+    with.clustering = grouping == Grouping::consensus;
     const auto classes = [&](const Pose& motion) {
       Taken scan = coarse_scan(rooms.after, from(0, 0), kStart + 1h, seed);
       auto priors = list(coarse_scan(rooms.before, from(2, 1), kStart), coarse_scan(rooms.before, from(-2, 1), kStart));

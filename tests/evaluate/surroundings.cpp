@@ -19,7 +19,7 @@ std::vector<Eigen::Vector3d> returns_around(const PriorIndex::Impl& index, const
   const Direction axis = direction_of(point_m.x(), point_m.y(), point_m.z());
   Cone(angle_rad).for_each_cell(index.grid, axis, [&](std::uint32_t cell, bool inside) {
     for (std::uint32_t i = index.first[cell]; i < index.first[cell + 1]; ++i) {
-      const Eigen::Vector3d p(index.x_m[i], index.y_m[i], index.z_m[i]);
+      const Eigen::Vector3d p = point_of(index.returns[i]);
       if (inside || p.dot(point_m) >= cosine * p.norm() * point_m.norm()) returns.push_back(p);
     }
     return true;

@@ -21,6 +21,8 @@ TEST_CASE_FIXTURE(StoreFixture, "a comparison keeps each kind of reference and i
   parameters.grouping = Grouping::union_;
   parameters.angle_rad = 0.1 + 0.2;
   parameters.support_distance_m = 0.25;
+  parameters.growth_distance_m = 0.5;
+  parameters.foliage_distance_m = 0.75;
   parameters.clustering = false;
   parameters.contemporary_tolerance = std::chrono::seconds(7);
   const std::vector<Reference> references{PreviousReference{}, WindowReference{at_second(1), at_second(2)},
@@ -37,6 +39,8 @@ TEST_CASE_FIXTURE(StoreFixture, "a comparison keeps each kind of reference and i
     CHECK(comparison.parameters.grouping == Grouping::union_);
     CHECK(comparison.parameters.angle_rad == parameters.angle_rad);
     CHECK(comparison.parameters.support_distance_m == 0.25);
+    CHECK(comparison.parameters.growth_distance_m == 0.5);
+    CHECK(comparison.parameters.foliage_distance_m == 0.75);
     CHECK_FALSE(comparison.parameters.clustering);
     CHECK(comparison.parameters.contemporary_tolerance == std::chrono::seconds(7));
   }

@@ -1,0 +1,148 @@
+// Which clusters of free points are believed, and how changes grow from them.
+
+#include "core/grow.hpp"
+
+#include <doctest/doctest.h>
+
+#include <numbers>
+#include <random>
+
+#include "core/cluster_votes.hpp"
+
+namespace raywatch {
+namespace {
+
+constexpr double kStep_rad = std::numbers::pi / 180.0;
+
+/// A scan of one degree's steps around the x axis; range_m(column, row) with both in -20..20.
+template <class Range>
+PointCloud shoot(Range range_m) {
+  PointCloud cloud;
+  for (int row = -20; row <= 20; ++row) {
+    for (int column = -20; column <= 20; ++column) {
+      const double a = kStep_rad * column, e = kStep_rad * row, r = range_m(column, row);
+      cloud.push_back(static_cast<float>(r * std::cos(e) * std::cos(a)),
+                      static_cast<float>(r * std::cos(e) * std::sin(a)), static_cast<float>(r * std::sin(e)));
+    }
+  }
+  return cloud;
+}
+
+std::uint32_t shot(int column, int row) { return static_cast<std::uint32_t>((row + 20) * 41 + column + 20); }
+
+struct Taken {
+  explicit Taken(PointCloud cloud) : points(std::move(cloud)), index(PriorIndex::build(points, {})) {}
+  ScanView view() const {
+    return {points,
+            index,
+            Pose{},
+            Time{},
+            {.range_noise_m = 0.01, .angular_resolution_rad = Eigen::Vector2d(kStep_rad, kStep_rad)}};
+  }
+  PointCloud points;
+  PriorIndex index;
+};
+
+constexpr double kWall_m = 10.0, kThing_m = 6.0;
+
+Taken wall() {
+  return Taken(shoot([](int, int) { return kWall_m; }));
+}
+
+/// A thing before the wall, seen by the shots of the columns and rows up to these.
+Taken thing(int columns, int rows) {
+  return Taken(shoot([=](int c, int r) { return std::abs(c) <= columns && std::abs(r) <= rows ? kThing_m : kWall_m; }));
+}
+
+std::vector<std::uint32_t> shots_of_thing(int columns, int rows) {
+  std::vector<std::uint32_t> shots;
+  for (int r = -rows; r <= rows; ++r) {
+    for (int c = -columns; c <= columns; ++c) shots.push_back(shot(c, r));
+  }
+  return shots;
+}
+
+CompareParameters parameters() {
+  CompareParameters result;
+  result.support_distance_m = 0.06;
+  result.growth_distance_m = 0.4;
+  result.foliage_distance_m = 0.8;
+  return result;
+}
+
+ClusterVotes votes(const Taken& scan, const std::vector<std::uint32_t>& members, const Taken& prior) {
+  return votes_of(scan.view(), members, prior.view(), parameters());
+}
+
+std::vector<Candidate> added(const std::vector<std::uint32_t>& shots) {
+  std::vector<Candidate> candidates;
+  for (const std::uint32_t i : shots) candidates.push_back({i, PointClass::added});
+  return candidates;
+}
+
+std::vector<ClassedPoint> grown(const Taken& scan, const Taken& prior, const std::vector<Candidate>& candidates,
+                                bool open) {
+  const std::vector<ScanView> asked{prior.view()};
+  return grow(scan.view(), candidates, asked, parameters(),
+              [&](std::span<const std::uint32_t> places) { return std::vector<std::uint8_t>(places.size(), open); });
+}
+
+TEST_CASE("rays of a prior go through a thing that came, and none through what is one row thin") {
+  CHECK(votes(thing(3, 3), shots_of_thing(3, 3), wall()).rays_through >= 40);
+  // A board between two rows of the prior's shots.
+  PointCloud board;
+  std::vector<std::uint32_t> members;
+  for (int c = -5; c <= 5; ++c) {
+    const double a = kStep_rad * (c + 0.3), e = 0.5 * kStep_rad;
+    members.push_back(static_cast<std::uint32_t>(board.size()));
+    board.push_back(static_cast<float>(kThing_m * std::cos(e) * std::cos(a)),
+                    static_cast<float>(kThing_m * std::cos(e) * std::sin(a)),
+                    static_cast<float>(kThing_m * std::sin(e)));
+  }
+  CHECK(votes(Taken(board), members, wall()).rays_through == 0);
+}
+
+TEST_CASE("a prior that has the thing lets no ray through") {
+  CHECK(votes(thing(3, 3), shots_of_thing(3, 3), thing(3, 3)).rays_through == 0);
+}
+
+TEST_CASE("a solid thing is coherent, scattered returns are not") {
+  CHECK(votes(thing(3, 3), shots_of_thing(3, 3), wall()).coherence > 0.75);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> anywhere(4.0, 9.0);
+  const Taken leaves(shoot([&](int, int) { return anywhere(random); }));
+  CHECK(votes(leaves, shots_of_thing(3, 3), wall()).coherence < 0.4);
+}
+
+TEST_CASE("the surroundings of a place are smooth at a wall and rough in leaves") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> near_thing(kThing_m - 0.7, kThing_m + 0.7);
+  const Taken leaves(shoot([&](int, int) { return near_thing(random); }));
+  CHECK(votes(thing(3, 3), shots_of_thing(3, 3), wall()).surroundings == 1.0);
+  CHECK(votes(thing(3, 3), shots_of_thing(3, 3), leaves).surroundings < 0.85);
+}
+
+TEST_CASE("a sure cluster grows over open points up to the growth distance, and not over closed ones") {
+  const Taken scan = thing(8, 3);
+  const std::vector<Candidate> candidates = added(shots_of_thing(3, 3));
+  CHECK(grown(scan, wall(), candidates, false).size() == candidates.size());
+  const std::vector<ClassedPoint> points = grown(scan, wall(), candidates, true);
+  CHECK(points.size() > candidates.size());
+  for (const ClassedPoint& point : points) {
+    CHECK(point.point_class == PointClass::added);
+    const Eigen::Vector3f p = scan.points[point.index];
+    CHECK(p.norm() == doctest::Approx(kThing_m));  // the wall behind it is out of reach
+    const double beyond_rad = std::max(0.0, std::atan2(std::abs(p.y()), p.x()) - 3 * kStep_rad);
+    CHECK(beyond_rad * kThing_m <= parameters().growth_distance_m + 0.01);
+  }
+}
+
+TEST_CASE("what most contradict is no seed, and neither is a cluster of few points") {
+  std::vector<Candidate> candidates = added(shots_of_thing(3, 3));
+  for (std::size_t k = 0; k < 30; ++k) candidates[k].contradicted = true;
+  CHECK(grown(thing(8, 3), wall(), candidates, true).empty());
+  CHECK(grown(thing(8, 3), wall(), added({shot(0, 0), shot(1, 0), shot(0, 1), shot(1, 1)}), true).empty());
+}
+
+}  // namespace
+}  // namespace raywatch
