@@ -81,12 +81,13 @@ Pose with_origin(const Pose& correction, const Eigen::Vector3d& origin_m);
 /// The priors of a comparison after each was aligned with the scan.
 struct AlignedPriors {
   std::vector<Alignment> alignments;  ///< one a prior
-  std::vector<ScanView> usable;       ///< at their corrected poses; those that fit badly are left out
+  std::vector<ScanView> usable;       ///< at their corrected poses, without those that fit badly while others fit
   std::vector<std::uint32_t> places;  ///< of the usable ones, in the list of all
   std::vector<std::string> warnings;  ///< of priors that were left out or stand far from where they were said to
 };
 
-/// Aligns each prior with the scan, whose pose stays as it is.
+/// Aligns each prior with the scan, whose pose stays as it is. If none fits, all are taken at their poses as reported,
+/// and `warnings` says so.
 AlignedPriors align_priors(const ScanView& scan, std::span<const ScanView> priors, const AlignParameters& parameters);
 
 /// Turns a comparison with the usable priors into one that speaks of all of them, in their order, and has the warnings.

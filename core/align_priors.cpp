@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -9,12 +10,14 @@
 namespace raywatch {
 namespace {
 
-std::string warning_of_bad(std::size_t prior, const Alignment& alignment) {
-  char text[240];
+std::string warning_of_bad(std::size_t prior, const Alignment& alignment, bool is_left_out) {
+  char text[320];
   std::snprintf(text, sizeof text,
                 "Prior %zu does not fit onto the scan (%.0f %% of the surfaces that both show agree; in one direction "
-                "%.0f %%) and is left out: its pose is wrong, or nearly everything changed.",
-                prior, 100.0 * alignment.inliers, 100.0 * alignment.agreement);
+                "%.0f %%): its pose is wrong, or nearly everything changed. %s",
+                prior, 100.0 * alignment.inliers, 100.0 * alignment.agreement,
+                is_left_out ? "It is left out, as other priors fit."
+                            : "It is compared at its pose as reported; changes may be errors of that pose.");
   return text;
 }
 
@@ -35,13 +38,15 @@ Pose with_origin(const Pose& correction, const Eigen::Vector3d& origin_m) {
 
 AlignedPriors align_priors(const ScanView& scan, std::span<const ScanView> priors, const AlignParameters& parameters) {
   AlignedPriors aligned;
+  for (const ScanView& prior : priors) aligned.alignments.push_back(align(prior, {&scan, 1}, parameters));
+  const bool any_fits = std::any_of(aligned.alignments.begin(), aligned.alignments.end(),
+                                    [](const Alignment& found) { return found.state != RegistrationState::bad; });
   for (std::size_t p = 0; p < priors.size(); ++p) {
     const ScanView& prior = priors[p];
-    const Alignment& found = aligned.alignments.emplace_back(align(prior, {&scan, 1}, parameters));
-    if (found.state == RegistrationState::bad) {
-      aligned.warnings.push_back(warning_of_bad(p, found));
-      continue;
-    }
+    const Alignment& found = aligned.alignments[p];
+    const bool is_bad = found.state == RegistrationState::bad;
+    if (is_bad) aligned.warnings.push_back(warning_of_bad(p, found, any_fits));
+    if (is_bad && any_fits) continue;
     if (found.state == RegistrationState::moved) {
       aligned.warnings.push_back(warning_of_moved(p, size_of(found.correction, prior.world_from_sensor)));
     }

@@ -11,6 +11,7 @@
 #include "core/evidence.hpp"
 #include "core/fold.hpp"
 #include "core/grow.hpp"
+#include "core/index_kernels.hpp"
 
 namespace raywatch {
 namespace {
@@ -23,15 +24,13 @@ constexpr double kFallbackAngle_rad = std::numbers::pi / 180.0;
 
 using Answers = std::vector<Answer>;  // of one prior, one a point
 
+constexpr std::size_t kGrain = 16384;
+
 std::vector<std::uint8_t> valid_points(const ScanView& view) {
-  const PointCloud& points = view.points;
-  const UsableRange& usable = view.index.usable();
-  std::vector<std::uint8_t> valid(points.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 16384), [&](const auto& block) {
-    for (std::size_t i = block.begin(); i < block.end(); ++i) {
-      const double x = points.x_m[i], y = points.y_m[i], z = points.z_m[i];
-      valid[i] = is_usable(std::sqrt(x * x + y * y + z * z), usable);
-    }
+  std::vector<std::uint8_t> valid(view.points.size());
+  const PointPlanes planes = planes_of(view.points);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, valid.size(), kGrain), [&](const auto& block) {
+    find_usable(planes.subspan(block.begin(), block.size()), view.index.usable(), valid.data() + block.begin());
   });
   return valid;
 }
@@ -150,10 +149,15 @@ class Detector {
 
   std::vector<PointClass> fold(std::span<const std::uint8_t> valid, std::span<const Answers> answers) const {
     std::vector<PointClass> classes(scan_.points.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, classes.size(), 16384), [&](const auto& block) {
-      std::vector<PriorOpinion> opinions(priors_.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, classes.size(), kGrain), [&](const auto& block) {
+      if (parameters_.grouping == Grouping::union_) {
+        fold_union(answers, epochs_, block.begin(), std::span(classes).subspan(block.begin(), block.size()));
+      } else {
+        std::vector<PriorOpinion> opinions(priors_.size());
+        for (std::size_t i = block.begin(); i < block.end(); ++i) classes[i] = fold_one(answers, i, opinions);
+      }
       for (std::size_t i = block.begin(); i < block.end(); ++i) {
-        classes[i] = valid[i] ? fold_one(answers, i, opinions) : PointClass::invalid;
+        if (!valid[i]) classes[i] = PointClass::invalid;
       }
     });
     return classes;
@@ -194,14 +198,14 @@ class Detector {
     return candidates;
   }
 
+  /// Points that are not valid were answered unseen.
   void count_answers(std::span<const std::uint8_t> valid, Detection& detection) const {
     const std::size_t n = scan_.points.size();
     detection.free.resize(n);
     detection.supported.resize(n);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 16384), [&](const auto& block) {
-      for (std::size_t i = block.begin(); i < block.end(); ++i) {
-        if (!valid[i]) continue;
-        for (const Answers& of_prior : detection.answers) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, kGrain), [&](const auto& block) {
+      for (const Answers& of_prior : detection.answers) {
+        for (std::size_t i = block.begin(); i < block.end(); ++i) {
           detection.free[i] = static_cast<std::uint8_t>(detection.free[i] + (of_prior[i] == Answer::free));
           detection.supported[i] =
               static_cast<std::uint8_t>(detection.supported[i] + (of_prior[i] == Answer::supported));
@@ -211,7 +215,7 @@ class Detector {
     std::size_t valid_count = 0, testable = 0;
     for (std::size_t i = 0; i < n; ++i) {
       valid_count += valid[i];
-      testable += detection.free[i] > 0 || detection.supported[i] > 0;
+      testable += (detection.free[i] | detection.supported[i]) != 0;
     }
     detection.testable = valid_count == 0 ? 0.0 : static_cast<double>(testable) / static_cast<double>(valid_count);
   }

@@ -29,19 +29,68 @@ bool is_change(PointClass point_class) {
          point_class == PointClass::discrepancy;
 }
 
-PointClass fold_union(std::span<const PriorOpinion> opinions) {
-  bool supported = false, occluded = false, discrepancy = false, removed = false;
-  for (const auto& [answer, epoch] : opinions) {
-    if (answer == Answer::free && epoch == Epoch::earlier) return PointClass::added;
-    removed |= answer == Answer::free && epoch == Epoch::later;
-    discrepancy |= answer == Answer::free && epoch == Epoch::contemporary;
-    supported |= answer == Answer::supported;
-    occluded |= answer == Answer::occluded;
+namespace {
+
+/// What the priors say about a point in `union`, as a set of bits; the first that is there decides.
+enum UnionBit : std::uint8_t { kAdded = 1, kRemoved = 2, kDiscrepancy = 4, kSupported = 8, kOccluded = 16 };
+
+UnionBit bit_of_free(Epoch epoch) {
+  switch (epoch) {
+    case Epoch::earlier:
+      return kAdded;
+    case Epoch::later:
+      return kRemoved;
+    case Epoch::contemporary:
+      break;
   }
-  if (removed) return PointClass::removed;
-  if (discrepancy) return PointClass::discrepancy;
-  if (supported) return PointClass::unchanged;
-  return occluded ? PointClass::occluded : PointClass::unseen;
+  return kDiscrepancy;
+}
+
+std::uint8_t bits_of(Answer answer, Epoch epoch) {
+  switch (answer) {
+    case Answer::free:
+      return bit_of_free(epoch);
+    case Answer::supported:
+      return kSupported;
+    case Answer::occluded:
+      return kOccluded;
+    case Answer::unseen:
+    case Answer::ambiguous:
+      break;
+  }
+  return 0;
+}
+
+PointClass class_of_bits(std::uint8_t bits) {
+  if (bits & kAdded) return PointClass::added;
+  if (bits & kRemoved) return PointClass::removed;
+  if (bits & kDiscrepancy) return PointClass::discrepancy;
+  if (bits & kSupported) return PointClass::unchanged;
+  return bits & kOccluded ? PointClass::occluded : PointClass::unseen;
+}
+
+}  // namespace
+
+PointClass fold_union(std::span<const PriorOpinion> opinions) {
+  std::uint8_t bits = 0;
+  for (const auto& [answer, epoch] : opinions) bits |= bits_of(answer, epoch);
+  return class_of_bits(bits);
+}
+
+void fold_union(std::span<const std::vector<Answer>> answers, std::span<const Epoch> epochs, std::size_t begin,
+                std::span<PointClass> classes) {
+  constexpr std::size_t kAnswers = 5, kSets = 32;
+  std::array<PointClass, kSets> class_of;
+  for (std::size_t bits = 0; bits < kSets; ++bits) class_of[bits] = class_of_bits(static_cast<std::uint8_t>(bits));
+  std::vector<std::uint8_t> bits(classes.size(), 0);
+  for (std::size_t p = 0; p < answers.size(); ++p) {
+    std::array<std::uint8_t, kAnswers> bits_of_answer;
+    for (std::size_t k = 0; k < kAnswers; ++k) bits_of_answer[k] = bits_of(static_cast<Answer>(k), epochs[p]);
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+      bits[i] |= bits_of_answer[static_cast<std::size_t>(answers[p][begin + i])];
+    }
+  }
+  for (std::size_t i = 0; i < classes.size(); ++i) classes[i] = class_of[bits[i]];
 }
 
 PointClass fold_consensus(std::span<const PriorOpinion> opinions, std::span<const std::uint32_t> group) {

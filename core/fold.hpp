@@ -27,6 +27,9 @@ struct PriorOpinion {
 /// The published grouping: changed if free in any prior. What an earlier or later prior says comes before a
 /// contemporary one's discrepancy.
 PointClass fold_union(std::span<const PriorOpinion> opinions);
+/// The same for the points from `begin` on, one a class. `answers` are those of each prior about each point.
+void fold_union(std::span<const std::vector<Answer>> answers, std::span<const Epoch> epochs, std::size_t begin,
+                std::span<PointClass> classes);
 
 /// Evidence is weighed: within each epoch the newest prior that can test the point decides (`opinions` are ordered from
 /// the newest to the oldest; `group` numbers those that are contemporary with each other), and support within its group

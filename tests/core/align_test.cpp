@@ -274,6 +274,17 @@ TEST_CASE("a prior with a wrong pose is left out of a comparison, and one that s
   CHECK(comparison.warnings.size() == 2);
 }
 
+TEST_CASE("when no prior fits, all are compared at their poses as reported, and the comparison says so") {
+  const Taken &scan = taken(Family::lab, 4), &wrong = taken(Family::lab, 1);
+  const Pose said = turned(wrong.scan.true_world_from_sensor, 1.0, Eigen::Vector3d::UnitZ());
+  const ScanView prior = wrong.view(said);
+  const AlignedPriors aligned_priors = align_priors(scan.at_true_pose(), {&prior, 1}, {});
+  REQUIRE(aligned_priors.usable.size() == 1);
+  CHECK(aligned_priors.usable[0].world_from_sensor.position_m == said.position_m);
+  REQUIRE(aligned_priors.warnings.size() == 1);
+  CHECK(aligned_priors.warnings[0].find("as reported") != std::string::npos);
+}
+
 TEST_CASE("a correction says the same of coordinates that have an origin") {
   const Pose correction = turned(from(0.1, 0.2), 0.01, Eigen::Vector3d::UnitZ());
   const Eigen::Vector3d origin_m(400'000.0, 5'000'000.0, 100.0), place_m(3.0, 4.0, 5.0);

@@ -33,5 +33,7 @@ TEST_CASE("plots have a block for each T_a and a line for each T_r, and scripts 
   for (const char* script : {"f_score.gp", "precision_recall.gp"}) {
     CHECK(text_of(scratch / "plots" / script).find("\"grid.dat\"") != std::string::npos);
   }
-  CHECK(text_of(scratch / "plots" / "consensus.dat").find("\n0.25 ") != std::string::npos);
+  std::ostringstream consensus;
+  consensus << '\n' << default_parameters(Profile::outdoor, Grouping::consensus).range_m << ' ';
+  CHECK(text_of(scratch / "plots" / "consensus.dat").find(consensus.str()) != std::string::npos);
 }
