@@ -48,11 +48,19 @@ Limits limits_of(const SurfaceTolerance& tolerance, double range_m, double cosin
           std::hypot(kOff * sigma_m, kOffRoughness * tolerance.roughness_m)};
 }
 
-/// The prior's returns around one point.
+/// A return in the prior's frame, with its range.
+struct RangedReturn {
+  Eigen::Vector3d place_m;
+  double range_m;
+};
+
+/// The prior's returns around one point. `memory` is used for them, so that not every point asks for new one.
 class Surroundings {
  public:
-  Surroundings(const PriorIndex::Impl& prior, const Eigen::Vector3d& point_m, double angle_rad, double distance_m)
-      : point_m_(point_m) {
+  Surroundings(const PriorIndex::Impl& prior, const Eigen::Vector3d& point_m, double angle_rad, double distance_m,
+               std::vector<RangedReturn>& memory)
+      : point_m_(point_m), returns_(memory) {
+    returns_.clear();
     const double range_m = point_m.norm();
     const double cosine = std::cos(angle_rad);
     const double ball_rad = distance_m < range_m ? std::asin(distance_m / range_m) : std::numbers::pi / 2;
@@ -91,16 +99,12 @@ class Surroundings {
   }
 
   bool lie_within(const InversePlane& plane, double distance_m) const {
-    return std::all_of(returns_.begin(), returns_.end(),
-                       [&](const Return& r) { return std::abs(plane.distance_before_m(r.place_m)) <= distance_m; });
+    return std::all_of(returns_.begin(), returns_.end(), [&](const RangedReturn& r) {
+      return std::abs(plane.distance_before_m(r.place_m)) <= distance_m;
+    });
   }
 
  private:
-  struct Return {
-    Eigen::Vector3d place_m;
-    double range_m;
-  };
-
   bool surround() const {
     bool west = false, east = false, south = false, north = false;
     for (const auto& [p, rho] : returns_) {
@@ -115,7 +119,7 @@ class Surroundings {
   }
 
   const Eigen::Vector3d& point_m_;
-  std::vector<Return> returns_;
+  std::vector<RangedReturn>& returns_;
   double nearest_m2_ = std::numeric_limits<double>::infinity();
 };
 
@@ -124,7 +128,8 @@ Answer weigh_one(const PriorIndex::Impl& prior, const Eigen::Vector3d& point_m, 
   const double range_m = point_m.norm();
   const Limits facing = limits_of(tolerance, range_m, 1.0);
   if (!(range_m > facing.off_m)) return asked;
-  const Surroundings around(prior, point_m, thresholds.angle_rad, facing.off_m);
+  thread_local std::vector<RangedReturn> memory;
+  const Surroundings around(prior, point_m, thresholds.angle_rad, facing.off_m, memory);
   if (const std::optional<InversePlane> plane = around.fit()) {
     const double cosine = std::min(1.0, plane->n_per_m.dot(point_m) / (plane->n_per_m.norm() * range_m));
     const Limits limits = limits_of(tolerance, range_m, cosine);
