@@ -57,26 +57,21 @@ struct RangedReturn {
 /// The prior's returns around one point. `memory` is used for them, so that not every point asks for new one.
 class Surroundings {
  public:
-  Surroundings(const PriorIndex::Impl& prior, const Eigen::Vector3d& point_m, double angle_rad, double distance_m,
+  Surroundings(const PriorIndex::Impl& prior, const Eigen::Vector3d& point_m, double angle_rad,
                std::vector<RangedReturn>& memory)
       : point_m_(point_m), returns_(memory) {
     returns_.clear();
-    const double range_m = point_m.norm();
-    const double cosine = std::cos(angle_rad);
-    const double ball_rad = distance_m < range_m ? std::asin(distance_m / range_m) : std::numbers::pi / 2;
+    const double cosine_m = std::cos(angle_rad) * point_m.norm();
     const Direction axis = direction_of(point_m.x(), point_m.y(), point_m.z());
-    Cone(std::max(angle_rad, ball_rad)).for_each_cell(prior.grid, axis, [&](std::uint32_t cell, bool) {
+    Cone(angle_rad).for_each_cell(prior.grid, axis, [&](std::uint32_t cell, bool) {
       for (std::uint32_t i = prior.first[cell]; i < prior.first[cell + 1]; ++i) {
         const Eigen::Vector3d p = point_of(prior.returns[i]);
-        nearest_m2_ = std::min(nearest_m2_, (p - point_m).squaredNorm());
         const double rho = p.norm();
-        if (p.dot(point_m) >= cosine * rho * range_m) returns_.push_back({p, rho});
+        if (p.dot(point_m) >= cosine_m * rho) returns_.push_back({p, rho});
       }
       return true;
     });
   }
-
-  double nearest_m() const { return std::sqrt(nearest_m2_); }
 
   /// The plane through the returns in the cone, if they surround the point. In directions u_i and inverse ranges, a
   /// plane is the linear function n . u_i = 1 / rho_i, so that the fit is a linear least-squares problem of three
@@ -120,8 +115,24 @@ class Surroundings {
 
   const Eigen::Vector3d& point_m_;
   std::vector<RangedReturn>& returns_;
-  double nearest_m2_ = std::numeric_limits<double>::infinity();
 };
+
+/// The distance to the nearest return, if it is below `farthest_m` (< the point's range), else that; any distance below
+/// `enough_m` will do.
+double nearest_return_m(const PriorIndex::Impl& prior, const Eigen::Vector3d& point_m, double enough_m,
+                        double farthest_m) {
+  const double range_m = point_m.norm(), reach_m = farthest_m + kRangeError * (range_m + farthest_m);
+  double nearest_m2 = farthest_m * farthest_m;
+  const Direction axis = direction_of(point_m.x(), point_m.y(), point_m.z());
+  Cone(std::asin(farthest_m / range_m)).for_each_cell(prior.grid, axis, [&](std::uint32_t cell, bool) {
+    if (prior.least_m[cell] > range_m + reach_m || prior.greatest_m[cell] < range_m - reach_m) return true;
+    for (std::uint32_t i = prior.first[cell]; i < prior.first[cell + 1]; ++i) {
+      nearest_m2 = std::min(nearest_m2, (point_of(prior.returns[i]) - point_m).squaredNorm());
+    }
+    return nearest_m2 > enough_m * enough_m;
+  });
+  return std::sqrt(nearest_m2);
+}
 
 Answer weigh_one(const PriorIndex::Impl& prior, const Eigen::Vector3d& point_m, const Thresholds& thresholds,
                  const SurfaceTolerance& tolerance, Answer asked) {
@@ -129,7 +140,7 @@ Answer weigh_one(const PriorIndex::Impl& prior, const Eigen::Vector3d& point_m, 
   const Limits facing = limits_of(tolerance, range_m, 1.0);
   if (!(range_m > facing.off_m)) return asked;
   thread_local std::vector<RangedReturn> memory;
-  const Surroundings around(prior, point_m, thresholds.angle_rad, facing.off_m, memory);
+  const Surroundings around(prior, point_m, thresholds.angle_rad, memory);
   if (const std::optional<InversePlane> plane = around.fit()) {
     const double cosine = std::min(1.0, plane->n_per_m.dot(point_m) / (plane->n_per_m.norm() * range_m));
     const Limits limits = limits_of(tolerance, range_m, cosine);
@@ -140,8 +151,9 @@ Answer weigh_one(const PriorIndex::Impl& prior, const Eigen::Vector3d& point_m, 
       return before_m >= limits.off_m ? Answer::free : Answer::ambiguous;
     }
   }
-  if (around.nearest_m() <= facing.on_m) return Answer::supported;
-  if (asked == Answer::supported || around.nearest_m() < facing.off_m) return Answer::ambiguous;
+  const double nearest_m = nearest_return_m(prior, point_m, facing.on_m, facing.off_m);
+  if (nearest_m <= facing.on_m) return Answer::supported;
+  if (asked == Answer::supported || nearest_m < facing.off_m) return Answer::ambiguous;
   return asked;
 }
 
