@@ -21,7 +21,7 @@ const std::vector<Case> kOnePair{{Against::same_pose, 1, {0}}};
 /// The errors of a comparison that calls the points changed which `called` picks.
 template <class Called>
 std::vector<PointError> errors_when(const Place& place, Called called) {
-  const IndexedPlace indexed(place);
+  const IndexedPlace indexed(place, Profile::indoor);
   const CaseLabels labels = labels_of(indexed, kOnePair[0]);
   Verdicts verdicts;
   for (std::size_t i = 0; i < place.scans[1].labels.size(); ++i) verdicts.scan.push_back(called(place.scans[1], i));
@@ -93,7 +93,7 @@ TEST_CASE("false points between what the prior saw before and behind them lie on
 
 TEST_CASE("the incidence on a wall is the angle of the ray against the wall's normal") {
   const Place place{.name = "", .scans = {scan_of({}, 0, 0.5), scan_of({}, 1, 0.5)}, .states = {}};
-  const IndexedPlace indexed(place);
+  const IndexedPlace indexed(place, Profile::indoor);
   const ScanView view = indexed.views(kOnePair[0], Grouping::union_).scan;
   for (const double azimuth_deg : {0.0, 30.0, 60.0, 80.0}) {
     const double angle_rad = radians(azimuth_deg);

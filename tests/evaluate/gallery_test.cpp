@@ -37,7 +37,7 @@ TEST_CASE(
     "the gallery has a picture of each kind of error, with what was missed in orange and what was found in green") {
   const Place place{.name = "", .scans = {scan_of({}, 0), scan_of({{5.0, 1.0, kCame}}, 1)}, .states = {}};
   const Case pair{Against::same_pose, 1, {0}};
-  const IndexedPlace indexed(place);
+  const IndexedPlace indexed(place, Profile::indoor);
   const CaseViews views = indexed.views(pair, Grouping::union_);
   const CaseLabels labels = labels_of(indexed, pair);
   Verdicts verdicts{.scan = std::vector<std::uint8_t>(place.scans[1].labels.size(), 0),

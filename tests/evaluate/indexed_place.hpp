@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/compare.hpp"
+#include "core/profile.hpp"
 #include "tests/evaluate/cases.hpp"
 
 namespace raywatch::evaluation {
@@ -18,12 +19,14 @@ struct CaseViews {
 /// outlive it. What is known about each sensor is estimated from its scan, as the program does for files.
 class IndexedPlace {
  public:
-  /// Runs in the caller's oneTBB arena.
-  explicit IndexedPlace(const Place& place);
+  /// Runs in the caller's oneTBB arena. The profile says which returns a consensus takes for the rig.
+  IndexedPlace(const Place& place, Profile profile);
 
   const Place& place() const { return *place_; }
   /// `union` filters no return by what was estimated about a sensor, `consensus` does.
   CaseViews views(const Case& c, Grouping grouping) const;
+  /// The same as a comparison with these parameters takes them: with the priors' poses refined, unless that is off.
+  CaseViews refined_views(const Case& c, const CompareParameters& parameters) const;
   /// The coarsest spacing of the shots of any scan: what T_a is a multiple of.
   double spacing_rad() const { return spacing_rad_; }
 
@@ -33,7 +36,7 @@ class IndexedPlace {
     std::shared_ptr<const PriorIndex> all;     ///< every return
     std::shared_ptr<const PriorIndex> usable;  ///< without what the sensor reports instead of "no return"
   };
-  static IndexedScan index(const SimulatedScan& scan);
+  static IndexedScan index(const SimulatedScan& scan, Profile profile);
   ScanView view(std::size_t scan, Grouping grouping) const;
 
   const Place* place_;

@@ -44,7 +44,7 @@ std::vector<Counts> points_of(const std::vector<TableRow>& rows) {
 
 std::vector<TableRow> evaluated(const Place& place) {
   Evaluation evaluation({.profile = Profile::indoor, .grid = {{1.5}, {0.1, 0.3}}, .most_pairs = 3});
-  evaluation.add(IndexedPlace(place));
+  evaluation.add(IndexedPlace(place, Profile::indoor));
   return table_rows(evaluation);
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("the best thresholds are at least as good as any other of the grid") {
   const Place place = simulate_place(Family::sim, {.seed = 3, .density = 0.05, .scans = 5});
   const auto best_of = [&](const Grid& grid) {
     Evaluation evaluation({.profile = Profile::outdoor, .grid = grid, .most_pairs = 4});
-    evaluation.add(IndexedPlace(place));
+    evaluation.add(IndexedPlace(place, Profile::indoor));
     return table_rows(evaluation).front().points.both().f_score();
   };
   const double best = best_of({{1.0, 2.0}, {0.05, 1.0}});

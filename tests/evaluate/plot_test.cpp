@@ -23,7 +23,7 @@ std::string text_of(const std::filesystem::path& path) {
 TEST_CASE("plots have a block for each T_a and a line for each T_r, and scripts that read them") {
   const Place place = simulate_place(simulator::Family::sim, {.seed = 3, .density = 0.02, .scans = 5});
   Evaluation evaluation({.profile = Profile::outdoor, .grid = {{1.0, 2.0}, {0.1, 0.5, 1.0}}, .most_pairs = 2});
-  evaluation.add(IndexedPlace(place));
+  evaluation.add(IndexedPlace(place, Profile::outdoor));
   const TempDir scratch;
   write_plots(evaluation, scratch / "plots");
   const std::string grid = text_of(scratch / "plots" / "grid.dat");

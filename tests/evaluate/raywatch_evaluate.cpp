@@ -113,7 +113,7 @@ void add_places(const Arguments& arguments, Evaluation& evaluation, ErrorStudy& 
   const CompareParameters consensus = default_parameters(evaluation.options().profile, Grouping::consensus);
   const auto add = [&](const Place& place) {
     std::cerr << place.name << ": " << place.scans.size() << " scans" << std::endl;
-    const IndexedPlace indexed(place);
+    const IndexedPlace indexed(place, evaluation.options().profile);
     evaluation.add(indexed);
     errors.add(indexed, consensus);
   };

@@ -32,7 +32,7 @@ CaseLabels labels_of(const IndexedPlace& place, const Case& c) {
 
 TimedScore score_case(const IndexedPlace& place, const Case& c, const CaseLabels& labels,
                       const CompareParameters& parameters, std::span<const Clustering> clusterings) {
-  const CaseViews views = place.views(c, parameters.grouping);
+  const CaseViews views = place.refined_views(c, parameters);
   Stopwatch watch;
   const Detection detection = detect(views.scan, views.priors, parameters);
   TimedScore timed{.score = {}, .detect_ms = watch.lap_ms()};
