@@ -7,24 +7,34 @@
 
 namespace raywatch {
 
-/// What the points of a cluster, taken together, tell about whether `asked` saw their place free.
+/// What the points of a cluster, taken together, tell about whether `asked` saw their place free. Counts are of points
+/// that are looked at: of large clusters only a part.
 struct ClusterVotes {
   /// Rays of `asked` that went through the cluster: returns well behind it in directions that its points surround. What
   /// is thinner than the spacing of the rays can hide between them: then there are none.
   std::size_t rays_through = 0;
-  /// The mean share of the shots beside a point whose returns lie on its surface, 0..1: high on solid things, low in
-  /// foliage, on fences and for returns mixed of two surfaces. Through such things rays of `asked` may pass. Beside:
-  /// one shot of either scan away, whichever is farther.
-  double coherence = 0.0;
-  /// The same share of the returns of `asked` within `foliage_distance_m` of the cluster, whatever the slope of their
-  /// surface is. Leaves and grass are low, and they move.
+  /// Points with rays of `asked` no farther aside than half the spacing of the scan's own shots, all of which went well
+  /// behind the point, or some of which did not. A surface that fills the space between the points stops such rays.
+  std::size_t penetrated = 0, blocked = 0;
+  /// The median distance of the points from the nearest return of `asked`; at most 1 m. Low where an edge was measured
+  /// a second time, a little beside; and of leaves that swayed.
+  double clearance_m = 0.0;
+  /// How smooth what `asked` shows within `foliage_distance_m` of the cluster is; see core/smoothness.hpp.
   double surroundings = 1.0;
-  /// The mean thickness of the layer in which the returns of `asked` near the points lie: low beside flat surfaces.
+  /// The mean of how rough what `asked` shows near the points is; see core/smoothness.hpp.
   double roughness_m = 0.0;
 };
 
 /// @param members points of `view`, at least one.
 ClusterVotes votes_of(const ScanView& view, std::span<const std::uint32_t> members, const ScanView& asked,
                       const CompareParameters& parameters);
+
+/// The share of the scan's own rays into a cluster that went through it, 0..1: high for fences, foliage and scattered
+/// returns, through which the rays of other scans can pass, too.
+double porosity_of(const ScanView& view, std::span<const std::uint32_t> members, const CompareParameters& parameters);
+
+/// The logarithm of the odds that a cluster truly changed, which the votes of one scan and its porosity tell: a
+/// logistic regression over the clusters of simulated places of all kinds.
+double log_odds_of_change(const ClusterVotes& votes, double porosity);
 
 }  // namespace raywatch

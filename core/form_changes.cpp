@@ -56,13 +56,21 @@ std::vector<ChangedPoint> changed_points(ChangeKind kind, const ScanView& scan, 
 
 using Members = std::vector<std::uint32_t>;  // places in the list of changed points of one kind
 
+/// How far apart the parts of one change may be, in multiples of the reach of its points. In a consensus what is still
+/// called changed surely is, so that parts which shadows and lost returns have separated can be joined.
+double reach_factor(const CompareParameters& parameters) {
+  constexpr double kJoining = 2.0;
+  return parameters.grouping == Grouping::union_ ? 1.0 : kJoining;
+}
+
 /// The clusters of more than `cluster_min_points` points.
 std::vector<Members> kept_clusters(const std::vector<ChangedPoint>& points, const CompareParameters& parameters) {
   std::vector<Eigen::Vector3f> positions_m;
   std::vector<float> reaches_m;
+  const auto factor = static_cast<float>(reach_factor(parameters));
   for (const ChangedPoint& point : points) {
     positions_m.push_back(point.world_m.cast<float>());
-    reaches_m.push_back(point.reach_m);
+    reaches_m.push_back(factor * point.reach_m);
   }
   const std::vector<std::uint32_t> cluster_of = cluster_points(positions_m, reaches_m);
   std::vector<Members> clusters;

@@ -4,19 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <numbers>
+#include <tuple>
 
-#include "core/cluster.hpp"
-#include "core/cluster_votes.hpp"
 #include "core/cone.hpp"
-#include "core/fold.hpp"
 #include "core/prior_index_impl.hpp"
 
 namespace raywatch {
 namespace {
-
-/// A reach in multiples of the spacing of the shots: bridges a lost return, and surfaces seen aslant.
-constexpr double kReachPerSpacing = 2.0;
 
 /// A point that has joined, and the seed from which it was reached.
 struct Joined {
@@ -37,17 +32,20 @@ bool is_nearer(const Neighbour& a, const Neighbour& b) {
 
 class Growth {
  public:
-  Growth(const ScanView& view, std::span<const ScanView> asked, const CompareParameters& parameters)
-      : view_(view), asked_(asked), parameters_(parameters) {}
+  Growth(const ScanView& view, std::span<const std::uint32_t> sources, const CompareParameters& parameters)
+      : view_(view), sources_(sources), parameters_(parameters) {}
 
-  std::vector<ClassedPoint> operator()(std::span<const Candidate> candidates, const IsOpen& is_open) {
+  std::vector<ClassedPoint> operator()(std::span<const ClassedPoint> seeds, std::span<const Candidate> candidates,
+                                       const IsOpen& is_open) {
     visited_.assign(view_.points.size(), 0);
     candidate_.assign(view_.points.size(), 0);
     for (const Candidate& candidate : candidates) candidate_[candidate.index] = !candidate.contradicted;
-    std::vector<Joined> front = seeds(candidates);
+    std::vector<Joined> front;
+    for (const ClassedPoint& seed : seeds) {
+      front.push_back({seed.index, seed.index, seed.point_class});
+      visited_[seed.index] = 1;
+    }
     std::vector<ClassedPoint> changed;
-    if (!front.empty()) source_ = sources_of(view_.index.impl(), view_.points);
-    for (const Joined& seed : front) visited_[seed.index] = 1;
     while (!front.empty()) {
       for (const Joined& joined : front) changed.push_back({joined.index, joined.point_class});
       const std::vector<Joined> offered = beside(front);
@@ -69,56 +67,6 @@ class Growth {
   }
 
  private:
-  std::vector<Joined> seeds(std::span<const Candidate> candidates) const {
-    std::vector<Joined> result;
-    for (const PointClass point_class : {PointClass::added, PointClass::removed, PointClass::discrepancy}) {
-      for (const std::vector<Candidate>& cluster : clusters_of(candidates, point_class)) {
-        std::vector<std::uint32_t> members;
-        for (const Candidate& candidate : cluster) {
-          if (!candidate.contradicted) members.push_back(candidate.index);
-        }
-        if (2 * members.size() < cluster.size() || !is_sure(members)) continue;
-        for (const std::uint32_t i : members) result.push_back({i, i, point_class});
-      }
-    }
-    return result;
-  }
-
-  std::vector<std::vector<Candidate>> clusters_of(std::span<const Candidate> candidates, PointClass point_class) const {
-    std::vector<Candidate> members;
-    std::vector<Eigen::Vector3f> positions_m;
-    std::vector<float> reaches_m;
-    for (const Candidate& candidate : candidates) {
-      if (candidate.point_class != point_class) continue;
-      members.push_back(candidate);
-      positions_m.push_back(view_.points[candidate.index]);
-      reaches_m.push_back(reach_m(view_, positions_m.back(), parameters_));
-    }
-    const std::vector<std::uint32_t> cluster_of = cluster_points(positions_m, reaches_m);
-    std::vector<std::vector<Candidate>> clusters;
-    for (std::size_t k = 0; k < members.size(); ++k) {
-      if (cluster_of[k] == clusters.size()) clusters.emplace_back();
-      clusters[cluster_of[k]].push_back(members[k]);
-    }
-    return clusters;
-  }
-
-  /// Whether a prior surely saw the place of the cluster free. Each bound was measured on simulated scenes: it lies
-  /// between what things that came or went show, and what shelves seen edge-on, foliage, fences and mixed returns show.
-  bool is_sure(const std::vector<std::uint32_t>& cluster) const {
-    constexpr std::size_t kLeastRays = 5;
-    constexpr double kLeastCoherence = 0.55;
-    constexpr double kLeastSurroundings = 0.85;
-    const double noise_m = view_.sensor.range_noise_m.value_or(0.0);
-    const double greatest_roughness_m = std::max(parameters_.support_distance_m / 3.0, noise_m);
-    if (cluster.size() < kLeastRays) return false;
-    return std::any_of(asked_.begin(), asked_.end(), [&](const ScanView& asked) {
-      const ClusterVotes votes = votes_of(view_, cluster, asked, parameters_);
-      return votes.rays_through >= kLeastRays && votes.coherence >= kLeastCoherence &&
-             votes.surroundings >= kLeastSurroundings && votes.roughness_m <= greatest_roughness_m;
-    });
-  }
-
   /// The points not yet visited that are within reach of the front, each from the nearest seed, by index.
   std::vector<Joined> beside(std::span<const Joined> front) const {
     std::vector<std::vector<Neighbour>> found(front.size());
@@ -144,11 +92,11 @@ class Growth {
     Cone(ratio < 1.0 ? std::asin(ratio) : std::numbers::pi / 2)
         .for_each_cell(index.grid, axis, [&](std::uint32_t cell, bool) {
           for (std::uint32_t i = index.first[cell]; i < index.first[cell + 1]; ++i) {
-            if (visited_[source_[i]]) continue;
+            if (visited_[sources_[i]]) continue;
             const Eigen::Vector3f p = point_of(index.returns[i]).cast<float>();
             if ((p - place_m).squaredNorm() >= reach * reach) continue;
             const float distance_m = (p - seed_m).norm();
-            if (distance_m <= farthest_m) result.push_back({{source_[i], from.seed, from.point_class}, distance_m});
+            if (distance_m <= farthest_m) result.push_back({{sources_[i], from.seed, from.point_class}, distance_m});
           }
           return true;
         });
@@ -156,26 +104,18 @@ class Growth {
   }
 
   const ScanView& view_;
-  std::span<const ScanView> asked_;
+  std::span<const std::uint32_t> sources_;
   const CompareParameters& parameters_;
-  std::vector<std::uint32_t> source_;  ///< of each return of the view's index, its place in the scan
   std::vector<std::uint8_t> visited_;
   std::vector<std::uint8_t> candidate_;  ///< free, though perhaps in no sure cluster
 };
 
 }  // namespace
 
-float reach_m(const ScanView& view, const Eigen::Vector3f& point_m, const CompareParameters& parameters) {
-  const auto least_m = static_cast<float>(parameters.cluster_distance_m);
-  if (parameters.grouping == Grouping::union_ || !view.sensor.angular_resolution_rad) return least_m;
-  const double spacing_m = view.sensor.angular_resolution_rad->maxCoeff() * point_m.norm();
-  return std::max(least_m, static_cast<float>(kReachPerSpacing * spacing_m));
-}
-
-std::vector<ClassedPoint> grow(const ScanView& view, std::span<const Candidate> candidates,
-                               std::span<const ScanView> asked, const CompareParameters& parameters,
-                               const IsOpen& is_open) {
-  return Growth(view, asked, parameters)(candidates, is_open);
+std::vector<ClassedPoint> grow(const ScanView& view, std::span<const std::uint32_t> sources,
+                               std::span<const ClassedPoint> seeds, std::span<const Candidate> candidates,
+                               const CompareParameters& parameters, const IsOpen& is_open) {
+  return Growth(view, sources, parameters)(seeds, candidates, is_open);
 }
 
 }  // namespace raywatch

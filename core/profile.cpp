@@ -40,7 +40,7 @@ CompareParameters default_parameters(Profile profile, Grouping grouping) {
       parameters.support_distance_m = 0.03;
       parameters.growth_distance_m = 0.15;
       parameters.cluster_distance_m = 0.10;
-      parameters.cluster_min_points = 9;
+      parameters.cluster_min_points = 5;
       parameters.min_range_m = 0.75;
       break;
     case Profile::outdoor:
@@ -49,7 +49,7 @@ CompareParameters default_parameters(Profile profile, Grouping grouping) {
       parameters.growth_distance_m = 0.4;
       parameters.foliage_distance_m = 0.8;
       parameters.cluster_distance_m = 0.30;
-      parameters.cluster_min_points = 9;
+      parameters.cluster_min_points = 5;
       parameters.min_range_m = 0.75;
       break;
     case Profile::survey:
@@ -58,7 +58,7 @@ CompareParameters default_parameters(Profile profile, Grouping grouping) {
       parameters.growth_distance_m = 0.6;
       parameters.foliage_distance_m = 1.0;
       parameters.cluster_distance_m = 0.6;
-      parameters.cluster_min_points = 20;
+      parameters.cluster_min_points = 9;
       break;
   }
   return parameters;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/cluster_votes.hpp"
+#include "core/prior_index_impl.hpp"
 
 namespace raywatch {
 namespace {
@@ -80,10 +81,15 @@ std::vector<Candidate> added(const std::vector<std::uint32_t>& shots) {
   return candidates;
 }
 
+std::vector<ClassedPoint> seeds_of(const Taken& scan, const Taken& prior, const std::vector<Candidate>& candidates) {
+  const std::vector<ScanView> asked{prior.view()};
+  return find_seeds(scan.view(), candidates, asked, parameters());
+}
+
 std::vector<ClassedPoint> grown(const Taken& scan, const Taken& prior, const std::vector<Candidate>& candidates,
                                 bool open) {
-  const std::vector<ScanView> asked{prior.view()};
-  return grow(scan.view(), candidates, asked, parameters(),
+  return grow(scan.view(), sources_of(scan.index.impl(), scan.points), seeds_of(scan, prior, candidates), candidates,
+              parameters(),
               [&](std::span<const std::uint32_t> places) { return std::vector<std::uint8_t>(places.size(), open); });
 }
 
@@ -106,12 +112,41 @@ TEST_CASE("a prior that has the thing lets no ray through") {
   CHECK(votes(thing(3, 3), shots_of_thing(3, 3), thing(3, 3)).rays_through == 0);
 }
 
-TEST_CASE("a solid thing is coherent, scattered returns are not") {
-  CHECK(votes(thing(3, 3), shots_of_thing(3, 3), wall()).coherence > 0.75);
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> anywhere(4.0, 9.0);
-  const Taken leaves(shoot([&](int, int) { return anywhere(random); }));
-  CHECK(votes(leaves, shots_of_thing(3, 3), wall()).coherence < 0.4);
+TEST_CASE("points of a thing that came are penetrated by rays of the prior, those of one that stayed stop them") {
+  const ClusterVotes came = votes(thing(3, 3), shots_of_thing(3, 3), wall());
+  CHECK(came.penetrated == 49);
+  CHECK(came.blocked == 0);
+  const ClusterVotes stayed = votes(thing(3, 3), shots_of_thing(3, 3), thing(3, 3));
+  CHECK(stayed.penetrated == 0);
+  CHECK(stayed.blocked == 49);
+}
+
+TEST_CASE("the clearance of a cluster is its median distance from what the prior saw, at most a metre") {
+  CHECK(votes(thing(3, 3), shots_of_thing(3, 3), wall()).clearance_m == doctest::Approx(1.0));
+  CHECK(votes(thing(3, 3), shots_of_thing(3, 3), thing(3, 3)).clearance_m == doctest::Approx(0.0));
+  const Taken nearer(shoot([](int, int) { return kThing_m + 0.4; }));
+  CHECK(votes(thing(3, 3), shots_of_thing(3, 3), nearer).clearance_m == doctest::Approx(0.4).epsilon(0.02));
+}
+
+TEST_CASE("a solid thing is not porous, a fence and scattered returns are") {
+  CHECK(porosity_of(thing(3, 3).view(), shots_of_thing(3, 3), parameters()) == 0.0);
+  const auto is_wire = [](int c, int r) { return std::abs(c) <= 6 && std::abs(r) <= 6 && (c % 2 == 0 && r % 2 == 0); };
+  const Taken fence(shoot([&](int c, int r) { return is_wire(c, r) ? kThing_m : kWall_m; }));
+  std::vector<std::uint32_t> wires;
+  for (int r = -6; r <= 6; r += 2) {
+    for (int c = -6; c <= 6; c += 2) wires.push_back(shot(c, r));
+  }
+  CHECK(porosity_of(fence.view(), wires, parameters()) > 0.4);
+}
+
+TEST_CASE("what came is believed, and neither a fence that was there nor an edge measured twice is") {
+  CHECK(seeds_of(thing(3, 3), wall(), added(shots_of_thing(3, 3))).size() == 49);
+  const Taken stayed = thing(3, 3);
+  CHECK(seeds_of(stayed, stayed, added(shots_of_thing(3, 3))).empty());
+  // The last column of the thing, which in the prior ended one column earlier.
+  std::vector<std::uint32_t> edge;
+  for (int r = -3; r <= 3; ++r) edge.push_back(shot(3, r));
+  CHECK(seeds_of(thing(3, 3), thing(2, 3), added(edge)).empty());
 }
 
 TEST_CASE("the surroundings of a place are smooth at a wall and rough in leaves") {

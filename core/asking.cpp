@@ -1,0 +1,103 @@
+#include "core/asking.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <numbers>
+
+#include "core/evidence.hpp"
+#include "core/footprint.hpp"
+#include "core/index_kernels.hpp"
+
+namespace raywatch {
+namespace {
+
+/// T_a as a multiple of the spacing of a sensor's shots: wide enough to have neighbours on every side of a direction
+/// also where the spacing varies.
+constexpr double kAnglePerSpacing = 1.6;
+/// Used when nothing is known of a sensor's resolution.
+constexpr double kFallbackAngle_rad = std::numbers::pi / 180.0;
+
+double spacing_rad(const ScanView& view) {
+  return view.sensor.angular_resolution_rad ? view.sensor.angular_resolution_rad->maxCoeff() : 0.0;
+}
+
+Pose asked_from_view(const ScanView& asked, const ScanView& view) {
+  return asked.world_from_sensor.inverse() * view.world_from_sensor;
+}
+
+}  // namespace
+
+bool Asking::weighs() const {
+  return parameters_.grouping == Grouping::consensus && parameters_.support_distance_m > 0.0;
+}
+
+double Asking::angle_rad(const ScanView& asked) const {
+  if (parameters_.angle_rad) return *parameters_.angle_rad;
+  const double spacing = spacing_rad(asked);
+  return spacing > 0.0 ? std::min(kAnglePerSpacing * spacing, std::numbers::pi / 2) : kFallbackAngle_rad;
+}
+
+Answers Asking::ask_all(const ScanView& asked, const ScanView& view, std::span<const std::uint8_t> valid) const {
+  Answers answers(view.points.size());
+  ask(asked.index, view.points, valid, asked_from_view(asked, view), thresholds(asked), answers);
+  return answers;
+}
+
+Answers Asking::ask_at(const ScanView& asked, const ScanView& view, std::span<const std::uint32_t> places) const {
+  const PointCloud points = points_at(view.points, places);
+  Answers answers(places.size());
+  const Pose pose = asked_from_view(asked, view);
+  ask(asked.index, points, std::vector<std::uint8_t>(places.size(), 1), pose, thresholds(asked), answers);
+  if (weighs()) {
+    weigh(asked.index, points, pose, thresholds(asked), tolerance_between(asked, view, parameters_), answers);
+  }
+  return answers;
+}
+
+void Asking::look_closely(const ScanView& asked, const ScanView& view, std::span<const std::uint32_t> places,
+                          Answers& answers) const {
+  if (!weighs()) return;
+  const PointCloud points = points_at(view.points, places);
+  Answers chosen;
+  chosen.reserve(places.size());
+  for (const std::uint32_t i : places) chosen.push_back(answers[i]);
+  const Pose pose = asked_from_view(asked, view);
+  weigh(asked.index, points, pose, thresholds(asked), tolerance_between(asked, view, parameters_), chosen);
+  ask_footprints(asked, points, pose, parameters_.range_m, chosen);
+  for (std::size_t k = 0; k < places.size(); ++k) answers[places[k]] = chosen[k];
+}
+
+void Asking::warn_of_coarse_rings(const ScanView& asked, const std::string& name,
+                                  std::vector<std::string>& warnings) const {
+  const double spacing = spacing_rad(asked), angle = angle_rad(asked);
+  if (!parameters_.angle_rad || spacing == 0.0 || angle >= spacing) return;
+  char text[240];
+  const double degrees = 180.0 / std::numbers::pi;
+  std::snprintf(text, sizeof text,
+                "The angular threshold of %.4g degrees is below the spacing of the shots of %s (%.4g degrees): many "
+                "points have no neighbours on every side, so that changes are missed; %.3g degrees or more would do.",
+                angle * degrees, name.c_str(), spacing * degrees, kAnglePerSpacing * spacing * degrees);
+  warnings.emplace_back(text);
+}
+
+std::vector<std::uint8_t> valid_points(const ScanView& view) {
+  constexpr std::size_t kGrain = 16384;
+  std::vector<std::uint8_t> valid(view.points.size());
+  const PointPlanes planes = planes_of(view.points);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, valid.size(), kGrain), [&](const auto& block) {
+    find_usable(planes.subspan(block.begin(), block.size()), view.index.usable(), valid.data() + block.begin());
+  });
+  return valid;
+}
+
+PointCloud points_at(const PointCloud& points, std::span<const std::uint32_t> places) {
+  PointCloud chosen;
+  chosen.reserve(places.size());
+  for (const std::uint32_t i : places) chosen.push_back(points.x_m[i], points.y_m[i], points.z_m[i]);
+  return chosen;
+}
+
+}  // namespace raywatch

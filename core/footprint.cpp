@@ -1,0 +1,45 @@
+#include "core/footprint.hpp"
+
+#include "core/for_each_point.hpp"
+#include "core/returns_near.hpp"
+
+namespace raywatch {
+namespace {
+
+/// Whether the shots beside a point surround it and all went behind it. The cone of T_a is as wide as the coarser of
+/// the two spacings demands; the ellipse of the shots beside a point is not.
+bool is_before_shots(const PriorIndex::Impl& index, const Eigen::Vector3d& point_m, const Eigen::Vector2d& radii_rad,
+                     double margin_m) {
+  const double range_m = point_m.norm();
+  const Eigen::Vector3d east = Eigen::Vector3d::UnitZ().cross(point_m).normalized();
+  const Eigen::Vector3d north = point_m.cross(east) / range_m;
+  bool on_west = false, on_east = false, on_south = false, on_north = false, behind = true;
+  for_each_return_near(index, point_m, radii_rad.maxCoeff(), [&](std::uint32_t i) {
+    const Eigen::Vector3d end_m = point_of(index.returns[i]);
+    const double end_range_m = end_m.norm();
+    const Eigen::Vector2d offset_rad = Eigen::Vector2d(east.dot(end_m), north.dot(end_m)) / end_range_m;
+    if (end_m.dot(point_m) < 0.0 || offset_rad.cwiseQuotient(radii_rad).squaredNorm() > 1.0) return;
+    behind &= end_range_m >= range_m + margin_m;
+    on_west |= offset_rad.x() <= 0.0;
+    on_east |= offset_rad.x() >= 0.0;
+    on_south |= offset_rad.y() < 0.0;
+    on_north |= offset_rad.y() > 0.0;
+  });
+  return behind && on_west && on_east && on_south && on_north;
+}
+
+}  // namespace
+
+void ask_footprints(const ScanView& asked, const PointCloud& points, const Pose& asked_from_points, double range_m,
+                    std::span<Answer> answers) {
+  constexpr double kBeside = 1.1;  // in spacings: reaches the corners of a grid's cell from nearly anywhere in it
+  const PriorIndex::Impl& index = asked.index.impl();
+  const Eigen::Vector2d radii_rad = kBeside * spacing_of(asked);
+  for_each_point(points, asked_from_points, [&](std::size_t i, const Eigen::Vector3d& point_m) {
+    if (answers[i] == Answer::ambiguous && is_before_shots(index, point_m, radii_rad, range_m)) {
+      answers[i] = Answer::free;
+    }
+  });
+}
+
+}  // namespace raywatch

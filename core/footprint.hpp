@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+
+#include "core/compare.hpp"
+
+namespace raywatch {
+
+/// Decides points that are ambiguous because their cone holds returns both nearer and farther, as before a cluttered
+/// background, from the shots right beside them alone: free, when the shots of `asked` that are about one spacing away,
+/// in azimuth and in elevation each for itself, surround the point and all went at least `range_m` farther.
+/// `points` stand in a frame that `asked_from_points` leads out of; `answers` has one element a point.
+void ask_footprints(const ScanView& asked, const PointCloud& points, const Pose& asked_from_points, double range_m,
+                    std::span<Answer> answers);
+
+}  // namespace raywatch

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/compare.hpp"
+#include "core/cone.hpp"
+#include "core/prior_index_impl.hpp"
+
+namespace raywatch {
+
+/// Calls visit(i) for the returns of an index in the cells that a cone touches: all that lie in the cone, and some
+/// more.
+template <class Visit>
+void for_each_return_near(const PriorIndex::Impl& index, const Eigen::Vector3d& direction, double angle_rad,
+                          Visit visit) {
+  const Direction axis = direction_of(direction.x(), direction.y(), direction.z());
+  Cone(std::min(angle_rad, std::numbers::pi / 2)).for_each_cell(index.grid, axis, [&](std::uint32_t cell, bool) {
+    for (std::uint32_t i = index.first[cell]; i < index.first[cell + 1]; ++i) visit(i);
+    return true;
+  });
+}
+
+/// The same for a ball that the sensor does not stand in; nothing when it does.
+template <class Visit>
+void for_each_return_around(const PriorIndex::Impl& index, const Eigen::Vector3d& center_m, double radius_m,
+                            Visit visit) {
+  const double range_m = center_m.norm();
+  if (!(range_m > radius_m)) return;
+  for_each_return_near(index, center_m, std::asin(radius_m / range_m), [&](std::uint32_t i) {
+    if ((point_of(index.returns[i]) - center_m).squaredNorm() < radius_m * radius_m) visit(i);
+  });
+}
+
+/// The spacing of a scan's shots in azimuth and elevation, in radians; assumed where nothing is known.
+inline Eigen::Vector2d spacing_of(const ScanView& view) {
+  constexpr double kFallbackSpacing_rad = 0.01;
+  return view.sensor.angular_resolution_rad.value_or(Eigen::Vector2d::Constant(kFallbackSpacing_rad));
+}
+
+/// The standard deviation of a scan's ranges in metres; assumed where nothing is known.
+inline double noise_of(const ScanView& view) {
+  constexpr double kFallbackNoise_m = 0.02;
+  return view.sensor.range_noise_m.value_or(kFallbackNoise_m);
+}
+
+}  // namespace raywatch

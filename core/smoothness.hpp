@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/compare.hpp"
+
+namespace raywatch {
+
+/// What the surface around a place is like, as a scan shows it. Places are in the scan's sensor frame.
+
+/// How smooth: the mean, over the returns within `distance_m`, of the share of the shots beside a return whose own lie
+/// on its surface, whatever its slope is; 0..1. Leaves and grass are low, and they move. 1 where the scan shows hardly
+/// anything.
+double smoothness_around(const ScanView& view, const Eigen::Vector3d& center_m, double distance_m);
+
+/// How thick: the standard deviation of the returns within `radius_m` across their plane, beyond what the scan's noise
+/// explains. 0 where the scan shows hardly anything.
+double roughness_around_m(const ScanView& view, const Eigen::Vector3d& center_m, double radius_m);
+
+}  // namespace raywatch
