@@ -154,10 +154,10 @@ class Fitting {
       const double sigma_m = row.sigma_with(blur_m_);
       information.add(row, tukey_weight(row.distance_m / sigma_m, spread_now) / (sigma_m * sigma_m), scale_);
     }
-    const Eigen::MatrixXd fixed = information.fixed_motions(most_sigma_m());
+    const Motions fixed = information.fixed_motions(most_sigma_m());
     if (fixed.cols() == 0) return true;
-    const Eigen::MatrixXd normal = fixed.transpose() * information.normal * fixed;
-    const Eigen::VectorXd along = normal.ldlt().solve(-fixed.transpose() * information.gradient);
+    const MotionForm normal = fixed.transpose() * information.normal * fixed;
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1> along = normal.ldlt().solve(-fixed.transpose() * information.gradient);
     const Vector6 motion = (fixed * along).cwiseProduct(scale_);
     world_from_scan_.position_m += motion.head<3>();
     world_from_scan_.orientation = (turn_by(motion.tail<3>()) * world_from_scan_.orientation).normalized();
@@ -204,7 +204,7 @@ class Fitting {
     result.inliers = static_cast<double>(result.matches) / static_cast<double>(seen);
     if (result.matches > 0) result.residual_m = std::sqrt(squares_m2 / static_cast<double>(result.matches));
     result.agreement = least_agreement(faced_agreeing, faced, kLeastEvidence * faced.trace());
-    const Eigen::MatrixXd fixed = agreeing.fixed_motions(most_sigma_m());
+    const Motions fixed = agreeing.fixed_motions(most_sigma_m());
     result.free_directions = static_cast<std::size_t>(6 - fixed.cols());
     result.uncertainty = agreeing.uncertainty({fixed, scale_, spread(), parameters_.reported});
     const double objected = least_agreement(faced_agreeing, faced, kLeastObjections);

@@ -23,7 +23,7 @@ void Information::add(const Row& row, double row_weight, const Vector6& scale) {
   weight += row_weight;
 }
 
-Eigen::MatrixXd Information::fixed_motions(double most_sigma_m) const {
+Motions Information::fixed_motions(double most_sigma_m) const {
   const double least = std::max(kLeastInformation * weight, kAlikePieces / (most_sigma_m * most_sigma_m));
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(unbiased);
   Eigen::Index first = 0;
@@ -34,7 +34,7 @@ Eigen::MatrixXd Information::fixed_motions(double most_sigma_m) const {
 PoseUncertainty Information::uncertainty(const Fit& fit) const {
   Matrix6 covariance = Matrix6::Zero();
   if (fit.fixed.cols() > 0) {
-    const Eigen::MatrixXd fixed_normal = fit.fixed.transpose() * normal * fit.fixed;
+    const MotionForm fixed_normal = fit.fixed.transpose() * normal * fit.fixed;
     covariance = kAlikePieces * fit.spread * fit.spread * fit.fixed * fixed_normal.inverse() * fit.fixed.transpose();
   }
   covariance = fit.scale.asDiagonal() * covariance * fit.scale.asDiagonal();
@@ -51,9 +51,11 @@ double least_agreement(const Eigen::Matrix3d& agreeing, const Eigen::Matrix3d& a
   Eigen::Index first = 0;
   while (first < 3 && base.eigenvalues()[first] < enough) ++first;
   if (first == 3) return 1.0;
-  const Eigen::MatrixXd faced = base.eigenvectors().rightCols(3 - first);
-  const Eigen::MatrixXd whole = faced.transpose() * all * faced, part = faced.transpose() * agreeing * faced;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(part, whole, Eigen::EigenvaluesOnly);
+  using Directions = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
+  using Form = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
+  const Directions faced = base.eigenvectors().rightCols(3 - first);
+  const Form whole = faced.transpose() * all * faced, part = faced.transpose() * agreeing * faced;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Form> solver(part, whole, Eigen::EigenvaluesOnly);
   return solver.info() == Eigen::Success ? std::clamp(solver.eigenvalues()[0], 0.0, 1.0) : 0.0;
 }
 

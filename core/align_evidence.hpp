@@ -10,6 +10,10 @@ namespace raywatch {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+/// Up to six directions of motion, one a column; bounded, so that neither memory nor kernels for large ones are needed.
+using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+/// A symmetric form on as many directions.
+using MotionForm = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
 
 /// How a piece of the scan's surface stands to what a reference shows there.
 struct Row {
@@ -36,11 +40,11 @@ struct Information {
 
   /// A base of the motions that the scene fixes, one a column: those of which there is a share of the evidence that
   /// means something, and enough of it to be less uncertain than `most_sigma_m`.
-  Eigen::MatrixXd fixed_motions(double most_sigma_m) const;
+  Motions fixed_motions(double most_sigma_m) const;
 
   /// What `uncertainty` is asked with.
   struct Fit {
-    const Eigen::MatrixXd& fixed;  ///< see `fixed_motions`
+    const Motions& fixed;  ///< see `fixed_motions`
     const Vector6& scale;
     double spread = 1.0;       ///< of the distances that are left, in deviations
     PoseUncertainty reported;  ///< of what is not fixed

@@ -167,12 +167,15 @@ double porosity_of(const ScanView& view, std::span<const std::uint32_t> members,
 }
 
 double log_odds_of_change(const ClusterVotes& votes, double porosity) {
-  constexpr double kMostRays = 60.0;  // more tell no more
+  // Beyond these, more tells no more: ground may well be rough for other reasons than leaves.
+  constexpr double kMostRays = 60.0, kMostRoughness_m = 0.01;
+  constexpr double kLeastClearance_m = 0.02;
   const auto rays = std::min(kMostRays, static_cast<double>(votes.rays_through));
   const auto penetrated = static_cast<double>(votes.penetrated), blocked = static_cast<double>(votes.blocked);
-  return -14.07 + 1.84 * std::log1p(rays) + 2.32 * std::log1p(std::min(kMostRays, penetrated)) -
-         4.73 * blocked / (penetrated + blocked + 1.0) - 21.79 * porosity + 6.37 * std::log(votes.clearance_m + 0.02) +
-         12.13 * votes.surroundings - 851.6 * votes.roughness_m;
+  return -12.32 + 1.51 * std::log1p(rays) + 2.29 * std::log1p(std::min(kMostRays, penetrated)) -
+         1.73 * blocked / (penetrated + blocked + 1.0) - 17.75 * porosity +
+         5.67 * std::log(votes.clearance_m + kLeastClearance_m) + 9.74 * votes.surroundings -
+         569.0 * std::min(kMostRoughness_m, votes.roughness_m);
 }
 
 }  // namespace raywatch

@@ -34,7 +34,7 @@ std::vector<std::vector<Candidate>> clusters_of(const ScanView& view, std::span<
 bool is_sure(const ScanView& view, const std::vector<std::uint32_t>& cluster, std::span<const ScanView> asked,
              const CompareParameters& parameters) {
   constexpr std::size_t kLeastPoints = 5;
-  constexpr double kLeastLogOdds = 2.0;
+  constexpr double kLeastLogOdds = 1.2;  // hardly any false cluster of the simulated places reaches it
   if (cluster.size() < kLeastPoints) return false;
   const double porosity = porosity_of(view, cluster, parameters);
   return std::any_of(asked.begin(), asked.end(), [&](const ScanView& scan) {

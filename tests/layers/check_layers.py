@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks that includes point one way: core <- storage <- api <- server, with config beside storage.
 
-Also that core stays pure (no I/O, clock, thread, log, JSON or SQL) and that what a layer hides is used by it alone.
+Also that core stays pure (no I/O, clock, thread, log, JSON or SQL), that what a layer hides is used by it alone, and that
+each source includes its own header first, so that the header compiles alone.
 Prints every violation as FILE:LINE: REASON and ends with 1 if there is any.
 """
 import pathlib
@@ -56,12 +57,24 @@ def violations_of_line(folder, line):
         yield "core/ must not read a clock"
 
 
+def first_include(lines):
+    return next((found.group(2) for line in lines if (found := INCLUDE.match(line))), None)
+
+
+def includes_own_header_first(file, root, lines):
+    header = file.with_suffix(".hpp")
+    return not header.exists() or first_include(lines) == str(header.relative_to(root))
+
+
 def violations(root):
     for folder in MAY_INCLUDE:
         for file in sorted((root / folder).rglob("*")):
             if file.suffix not in (".hpp", ".cpp"):
                 continue
-            for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), start=1):
+            lines = file.read_text(encoding="utf-8").splitlines()
+            if file.suffix == ".cpp" and not includes_own_header_first(file, root, lines):
+                yield f"{file.relative_to(root)}:1: its own header must be its first include"
+            for number, line in enumerate(lines, start=1):
                 for reason in violations_of_line(folder, line):
                     yield f"{file.relative_to(root)}:{number}: {reason}"
 
@@ -77,6 +90,7 @@ def self_test():
     right = [("server", '#include "core/pose.hpp"'), ("core", "#include <chrono>"), ("core", "#include <vector>"),
              ("api", '#include "storage/store.hpp"'), ("storage", "#include <sqlite3.h>"),
              ("core", "#include <sys/mman.h>")]
+    assert first_include(["// a comment", '#include "core/pose.hpp"', "#include <vector>"]) == "core/pose.hpp"
     for folder, line in wrong:
         assert list(violations_of_line(folder, line)), f"not found: {folder}: {line}"
     for folder, line in right:
