@@ -4,45 +4,14 @@
 
 #include <doctest/doctest.h>
 
-#include <numbers>
 #include <random>
 
 #include "core/cluster_votes.hpp"
 #include "core/prior_index_impl.hpp"
+#include "tests/core/shots.hpp"
 
 namespace raywatch {
 namespace {
-
-constexpr double kStep_rad = std::numbers::pi / 180.0;
-
-/// A scan of one degree's steps around the x axis; range_m(column, row) with both in -20..20.
-template <class Range>
-PointCloud shoot(Range range_m) {
-  PointCloud cloud;
-  for (int row = -20; row <= 20; ++row) {
-    for (int column = -20; column <= 20; ++column) {
-      const double a = kStep_rad * column, e = kStep_rad * row, r = range_m(column, row);
-      cloud.push_back(static_cast<float>(r * std::cos(e) * std::cos(a)),
-                      static_cast<float>(r * std::cos(e) * std::sin(a)), static_cast<float>(r * std::sin(e)));
-    }
-  }
-  return cloud;
-}
-
-std::uint32_t shot(int column, int row) { return static_cast<std::uint32_t>((row + 20) * 41 + column + 20); }
-
-struct Taken {
-  explicit Taken(PointCloud cloud) : points(std::move(cloud)), index(PriorIndex::build(points, {})) {}
-  ScanView view() const {
-    return {points,
-            index,
-            Pose{},
-            Time{},
-            {.range_noise_m = 0.01, .angular_resolution_rad = Eigen::Vector2d(kStep_rad, kStep_rad)}};
-  }
-  PointCloud points;
-  PriorIndex index;
-};
 
 constexpr double kWall_m = 10.0, kThing_m = 6.0;
 
