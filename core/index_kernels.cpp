@@ -51,9 +51,9 @@ class UsableTest {
  private:
   HWY_NOINLINE FloatMask decide(const Coordinates& p, FloatMask yes, FloatMask open) const {
     const FloatTag d;
-    HWY_ALIGN float x[HWY_MAX_BYTES / sizeof(float)], y[HWY_MAX_BYTES / sizeof(float)],
-        z[HWY_MAX_BYTES / sizeof(float)];
-    HWY_ALIGN float decided[HWY_MAX_BYTES / sizeof(float)], is_open[HWY_MAX_BYTES / sizeof(float)];
+    HWY_ALIGN float x[kMostLanes], y[HWY_MAX_BYTES / sizeof(float)],
+        z[kMostLanes];
+    HWY_ALIGN float decided[kMostLanes], is_open[HWY_MAX_BYTES / sizeof(float)];
     hn::Store(p.x, d, x);
     hn::Store(p.y, d, y);
     hn::Store(p.z, d, z);
