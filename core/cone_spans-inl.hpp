@@ -7,7 +7,8 @@
 #endif
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
+#include <numbers>
 
 #include "core/ask_kernels.hpp"
 #include "core/spherical_simd-inl.hpp"
@@ -20,6 +21,7 @@ namespace raywatch::HWY_NAMESPACE {
 class ConeSpans {
  public:
   static constexpr std::size_t kMostRows = 24;
+  static constexpr std::int32_t kMostColumns = 31;
 
   explicit ConeSpans(const PreparedPrior& prior)
       : grid_(prior.index.grid.view()),
@@ -28,12 +30,17 @@ class ConeSpans {
         fits_(prior.thresholds.angle_rad < 0.1 && inner_rad_ > 0.0f &&
               2.0f * outer_rad_ * grid_.rows_per_rad + 2.0f < static_cast<float>(kMostRows)) {}
 
-  static constexpr std::int32_t kMostColumns = 32;
-
-  /// Of one row and one point. `first` counts cells of the whole grid, the others columns from there. Every direction
-  /// in the columns before `west_end` is west of the axis of the cone, in those from `east_first` on east.
+  /// Of one row and one point. `first` counts cells of the whole grid; bit k of `inside` stands for cell `first` + k.
   struct Span {
-    std::int32_t first, count, inner_first, inner_end, west_end, east_first;
+    std::int32_t first, count;
+    std::uint32_t inside;
+  };
+
+  /// Every direction in the columns of a span before `west_end` is west of the axis of the cone, in those from
+  /// `east_first` on east; and every direction in its row is north of it, or south, or neither is sure.
+  struct Sides {
+    std::int32_t west_end, east_first;
+    bool is_north, is_south;
   };
 
   /// Finds the spans of the first `count` lanes. @param cosine of the elevation
@@ -47,31 +54,46 @@ class ConeSpans {
     const Floats reach = constant(outer_rad_);
     const Floats low = hn::Max(row_of(hn::Sub(elevation, reach)), hn::Zero(d));
     const Floats high = hn::Min(row_of(hn::Add(elevation, reach)), constant(static_cast<float>(grid_.rows - 1)));
+    const Floats turn = hn::MulAdd(azimuth, constant(0.5f * std::numbers::inv_pi_v<float>), constant(0.5f));
     unfit_ = hn::FirstN(d, 0);
     rows_ = 0;
-    // North and south turn over not exactly at the elevation of the point but, off its meridian, a little beside it.
-    const Floats tangent = hn::Div(hn::Abs(elevation), hn::Max(cosine, constant(1e-6f)));
-    tilt_ = hn::MulAdd(constant(outer_rad_ * outer_rad_), tangent, constant(4e-6f));
     for (Floats row = low; rows_ < kMostRows; row = hn::Add(row, constant(1.0f)), ++rows_) {
       const FloatMask active = hn::And(present, hn::Le(row, high));
       if (hn::AllFalse(d, active)) break;
-      find_in_row(row, active, azimuth, elevation, cosine);
+      find_in_row(row, active, turn, elevation, cosine);
     }
     hn::Store(hn::IfThenElseZero(unfit_, constant(1.0f)), d, is_unfit_);
+    hn::Store(low, d, low_);
+    hn::Store(turn, d, turn_);
+    hn::Store(elevation, d, elevation_rad_);
+    hn::Store(cosine, d, cosine_);
   }
 
   std::size_t rows() const { return rows_; }
-  /// Of one row and all points: the first cell of the whole grid, and the number of cells.
+  Span span(std::size_t row, std::size_t lane) const {
+    return {first_[row][lane], count_[row][lane], inside_[row][lane]};
+  }
+  /// Of one row and all points.
   Ints first(std::size_t row) const { return hn::Load(IntTag(), first_[row]); }
   Ints count(std::size_t row) const { return hn::Load(IntTag(), count_[row]); }
-  Span span(std::size_t row, std::size_t lane) const {
-    return {first_[row][lane],     count_[row][lane],    inner_first_[row][lane],
-            inner_end_[row][lane], west_end_[row][lane], east_first_[row][lane]};
-  }
-  /// 1: every direction in the row is north of the point; -1: south; 0: neither is sure.
-  std::int32_t side(std::size_t row, std::size_t lane) const { return side_[row][lane]; }
+
   bool fits(std::size_t lane) const { return fits_ && is_unfit_[lane] == 0.0f; }
   FloatMask fits() const { return fits_ ? hn::Not(unfit_) : hn::FirstN(FloatTag(), 0); }
+
+  Sides sides(std::size_t row, std::size_t lane) const {
+    const std::size_t grid_row = static_cast<std::size_t>(low_[lane]) + row;
+    const float columns = grid_.columns[grid_row], rounding = 1e-6f * columns + 0.01f;
+    const float center = turn_[lane] * columns;
+    const std::int32_t first = first_[row][lane] - static_cast<std::int32_t>(grid_.first[grid_row]);
+    const float bottom_rad = grid_.low_rad + static_cast<float>(grid_row) * grid_.cell_rad;
+    // North and south turn over not exactly at the elevation of the point but, off its meridian, a little beside it.
+    const float tangent = std::abs(elevation_rad_[lane]) / std::max(cosine_[lane], 1e-6f);
+    const float tilt_rad = outer_rad_ * outer_rad_ * tangent + 4e-6f;
+    return {.west_end = static_cast<std::int32_t>(std::floor(center - rounding)) - first,
+            .east_first = static_cast<std::int32_t>(std::floor(center + rounding + 1.0f)) - first,
+            .is_north = bottom_rad - elevation_rad_[lane] > tilt_rad,
+            .is_south = elevation_rad_[lane] - (bottom_rad + grid_.cell_rad) > tilt_rad};
+  }
 
  private:
   static constexpr double kMargin_rad = 8.0 * kDirectionError_rad;
@@ -81,19 +103,32 @@ class ConeSpans {
     const Floats series = hn::NegMulAdd(s, constant(1.0f / 360.0f), constant(1.0f / 12.0f));
     return hn::Mul(hn::Mul(s, constant(0.25f)), hn::NegMulAdd(s, series, constant(1.0f)));
   }
-  /// The angle whose haversine is `value`, below 0.02; 0 for negative ones.
-  static Floats angle_of_haversine(Floats value) {
-    const Floats q = hn::Max(value, hn::Zero(FloatTag()));
+
+  /// The angle of which `value` / `scale` is the haversine, below 0.02, within `kRootError` of it; 0 when `value` is
+  /// negative.
+  struct Angle {
+    Floats rad, haversine;
+  };
+  static constexpr float kRootError = 1e-3f;
+  static Angle angle_of_haversine(Floats value, Floats scale) {
+    const Floats least = constant(1e-15f);
+    const Floats root = hn::ApproximateReciprocalSqrt(hn::Max(hn::Mul(value, scale), hn::Mul(least, least)));
+    const Floats sine = hn::Mul(hn::Max(value, hn::Zero(FloatTag())), root);
+    const Floats q = hn::Mul(sine, sine);
     const Floats series = hn::MulAdd(q, constant(3.0f / 40.0f), constant(1.0f / 6.0f));
-    return hn::Mul(hn::Mul(constant(2.0f), hn::Sqrt(q)), hn::MulAdd(q, series, constant(1.0f)));
+    return {hn::Mul(hn::Add(sine, sine), hn::MulAdd(q, series, constant(1.0f))), q};
   }
 
-  /// As `Cone::widths` and `Cone::columns_of`.
-  void find_in_row(Floats row, FloatMask active, Floats azimuth, Floats elevation, Floats cosine) {
+  /// As `Cone::widths` and `Cone::columns_of`, but with bounds of the cosines in the row that follow from its number of
+  /// columns c: c - 1 < 2 pi / cell * greatest <= c, and the least is smaller by at most a cell.
+  void find_in_row(Floats row, FloatMask active, Floats turn, Floats elevation, Floats cosine) {
+    constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;
     const FloatTag d;
     const IntTag di;
     const Floats zero = hn::Zero(d), one = constant(1.0f);
     const Ints index = hn::ConvertTo(di, hn::IfThenElseZero(active, row));
+    const Floats columns = hn::GatherIndex(d, grid_.columns, index);
+    const Ints base = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(grid_.first), index);
     const Floats bottom = hn::MulAdd(row, constant(grid_.cell_rad), constant(grid_.low_rad));
     const Floats above = hn::Sub(bottom, elevation);
     const Floats below = hn::Sub(elevation, hn::Add(bottom, constant(grid_.cell_rad)));
@@ -101,40 +136,32 @@ class ConeSpans {
     const Floats farthest = hn::Max(hn::Abs(above), hn::Abs(below));
     const Floats outer = hn::Sub(haversine(constant(outer_rad_)), haversine(nearest));
     const Floats inner = hn::Sub(haversine(constant(inner_rad_)), haversine(farthest));
-    const Floats outer_scale = hn::Mul(cosine, hn::GatherIndex(d, grid_.least_cosine, index));
-    const Floats inner_scale = hn::Mul(cosine, hn::GatherIndex(d, grid_.greatest_cosine, index));
-    const Floats columns = hn::GatherIndex(d, grid_.columns, index);
-    const Floats per_rad = hn::Mul(columns, constant(0.5f * std::numbers::inv_pi_v<float>));
+    const Floats scale = hn::Mul(cosine, constant(grid_.cell_rad / kTurn));
+    const Floats least = hn::Max(hn::Sub(columns, constant(1.001f + kTurn)), constant(1e-3f));
+    const Angle outer_angle = angle_of_haversine(outer, hn::Mul(scale, least));
+    const Angle inner_angle = angle_of_haversine(inner, hn::Mul(scale, columns));
+    const Floats per_rad = hn::Mul(columns, constant(1.0f / kTurn));
     const Floats margin = constant(static_cast<float>(kMargin_rad));
-    const Floats outer_value = hn::Div(outer, hn::Max(outer_scale, constant(1e-12f)));
-    const Floats outer_columns = hn::Mul(hn::Add(angle_of_haversine(outer_value), margin), per_rad);
-    const Floats inner_angle =
-        hn::Sub(angle_of_haversine(hn::Div(inner, hn::Max(inner_scale, constant(1e-12f)))), margin);
-    const Floats inner_columns = hn::Mul(inner_angle, per_rad);
-    const Floats turn = hn::MulAdd(azimuth, constant(0.5f * std::numbers::inv_pi_v<float>), constant(0.5f));
+    const Floats outer_columns = hn::Mul(hn::MulAdd(outer_angle.rad, constant(1.0f + kRootError), margin), per_rad);
+    const Floats inner_columns = hn::Mul(hn::MulSub(inner_angle.rad, constant(1.0f - kRootError), margin), per_rad);
     const Floats center = hn::Mul(turn, columns);
     const Floats first = hn::Floor(hn::Sub(center, outer_columns)), last = hn::Floor(hn::Add(center, outer_columns));
     const FloatMask touches = hn::And(active, hn::Ge(outer, zero));
     const FloatMask wraps = hn::Or(hn::Lt(first, zero), hn::Ge(last, columns));
-    const FloatMask is_wide = hn::Or(hn::Gt(outer_value, constant(0.02f)),
+    const FloatMask is_wide = hn::Or(hn::Gt(outer_angle.haversine, constant(0.019f)),
                                      hn::Ge(hn::Sub(last, first), constant(static_cast<float>(kMostColumns))));
     unfit_ = hn::Or(unfit_, hn::And(touches, hn::Or(wraps, is_wide)));
-    const FloatMask has_inside = hn::And(hn::Gt(inner, zero), hn::Gt(inner_angle, zero));
-    const Floats inner_first = hn::Sub(hn::Max(first, hn::Ceil(hn::Sub(center, inner_columns))), first);
-    const Floats inner_end = hn::Sub(hn::Min(hn::Add(last, one), hn::Floor(hn::Add(center, inner_columns))), first);
-    const Ints base = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(grid_.first), index);
     const FloatMask usable = hn::AndNot(unfit_, touches);
     const auto as_int = [&](Floats value) { return hn::ConvertTo(di, hn::IfThenElseZero(usable, value)); };
+    const Floats inner_first = hn::Sub(hn::Max(first, hn::Ceil(hn::Sub(center, inner_columns))), first);
+    const Floats inner_end = hn::Sub(hn::Min(hn::Add(last, one), hn::Floor(hn::Add(center, inner_columns))), first);
+    const Ints ones = hn::Set(di, 1);
+    const Ints inside = hn::Sub(hn::Shl(ones, as_int(inner_end)), hn::Shl(ones, as_int(inner_first)));
+    const FloatMask has_inside = hn::And(hn::And(hn::Gt(inner, zero), usable), hn::Gt(inner_end, inner_first));
     hn::Store(hn::Add(base, as_int(first)), di, first_[rows_]);
     hn::Store(as_int(hn::Add(hn::Sub(last, first), one)), di, count_[rows_]);
-    hn::Store(as_int(hn::IfThenElseZero(has_inside, inner_first)), di, inner_first_[rows_]);
-    hn::Store(as_int(hn::IfThenElseZero(has_inside, inner_end)), di, inner_end_[rows_]);
-    const Floats rounding = hn::MulAdd(columns, constant(1e-6f), constant(0.01f));
-    hn::Store(as_int(hn::Sub(hn::Floor(hn::Sub(center, rounding)), first)), di, west_end_[rows_]);
-    hn::Store(as_int(hn::Sub(hn::Floor(hn::Add(hn::Add(center, rounding), one)), first)), di, east_first_[rows_]);
-    const Floats side =
-        hn::Sub(hn::IfThenElseZero(hn::Gt(above, tilt_), one), hn::IfThenElseZero(hn::Gt(below, tilt_), one));
-    hn::Store(as_int(side), di, side_[rows_]);
+    hn::Store(hn::IfThenElseZero(hn::RebindMask(di, has_inside), inside), di,
+              reinterpret_cast<std::int32_t*>(inside_[rows_]));
   }
 
   DirectionGridView grid_;
@@ -142,12 +169,10 @@ class ConeSpans {
   bool fits_;
   std::size_t rows_ = 0;
   FloatMask unfit_ = hn::FirstN(FloatTag(), 0);
-  Floats tilt_ = hn::Zero(FloatTag());
   HWY_ALIGN float is_unfit_[kMostLanes] = {};
+  HWY_ALIGN float low_[kMostLanes], turn_[kMostLanes], elevation_rad_[kMostLanes], cosine_[kMostLanes];
   HWY_ALIGN std::int32_t first_[kMostRows][kMostLanes], count_[kMostRows][kMostLanes];
-  HWY_ALIGN std::int32_t inner_first_[kMostRows][kMostLanes], inner_end_[kMostRows][kMostLanes];
-  HWY_ALIGN std::int32_t west_end_[kMostRows][kMostLanes], east_first_[kMostRows][kMostLanes],
-      side_[kMostRows][kMostLanes];
+  HWY_ALIGN std::uint32_t inside_[kMostRows][kMostLanes];
 };
 
 }  // namespace raywatch::HWY_NAMESPACE

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <optional>
 
 #include "core/cone_spans-inl.hpp"
@@ -54,31 +55,11 @@ inline std::uint32_t bits_of(FloatMask mask) {
   return bits;
 }
 
-/// What the bounds of one vector of cells, next to each other in a row, say about one point.
-struct CellMasks {
-  CellMasks(const PriorIndex::Impl& index, const RangeBand& band, const ConeSpans::Span& span, std::int32_t k) {
-    const FloatTag d;
-    const IntTag di;
-    const Ints column = hn::Iota(di, 0);
-    const auto below = [&](std::int32_t bound) { return hn::RebindMask(d, hn::Lt(column, hn::Set(di, bound - k))); };
-    const Floats least = hn::LoadU(d, index.least_m.data() + span.first + k);
-    const Floats greatest = hn::LoadU(d, index.greatest_m.data() + span.first + k);
-    full = hn::And(below(span.count), hn::Le(least, greatest));
-    inside = hn::AndNot(below(span.inner_first), hn::And(full, below(span.inner_end)));
-    border = hn::AndNot(inside, full);
-    all_nearer = hn::Le(greatest, band.near);
-    all_farther = hn::Ge(least, band.far);
-    some_nearer = hn::Le(least, band.near);
-    some_farther = hn::Ge(greatest, band.far);
-    supports = hn::And(inside, band.supports(least, greatest));
-    open = hn::AndNot(hn::Or(all_nearer, all_farther), full);
-  }
-
-  FloatMask full, inside, border;
-  FloatMask all_nearer, all_farther, some_nearer, some_farther;
-  FloatMask supports;
-  FloatMask open;  ///< whose returns may lie in the band
-};
+inline FloatMask mask_of(std::uint32_t bits) {
+  std::uint8_t bytes[8] = {};
+  std::memcpy(bytes, &bits, sizeof bits);
+  return hn::LoadMaskBits(FloatTag(), bytes);
+}
 
 /// Looks at the bounds of all cells that the cone of one point touches.
 class ConeWindow {
@@ -93,19 +74,20 @@ class ConeWindow {
     if (!remains.is_complete) return std::nullopt;
     // The middle rows first, where most support is. No branch depends on a single row: it could not be predicted.
     const std::size_t rows = spans_.rows(), begin = rows / 3, end = rows - rows / 3;
-    Sums sums;
-    for (std::size_t row = begin; row < end; ++row) look_at_row(row, sums);
-    if (has(sums.supports)) return Answer::supported;
-    for (std::size_t row = 0; row < begin; ++row) look_at_row(row, sums);
-    for (std::size_t row = end; row < rows; ++row) look_at_row(row, sums);
-    if (has(sums.supports)) return Answer::supported;
-    Evidence& inside = remains.evidence;
-    inside = {.any = has(sums.any), .not_farther = has(sums.not_farther), .not_nearer = has(sums.not_nearer)};
-    const bool is_nearer = inside.any && inside.not_farther, is_farther = inside.any && inside.not_nearer;
-    const bool borders_matter =
-        (!is_nearer && has(sums.border_nearer)) || (!is_farther && has(sums.border_farther)) || has(sums.open);
+    Bounds all;
+    for (std::size_t row = begin; row < end; ++row) look_at_row(row, all);
+    if (has(hn::Lt(all.off, band_.within))) return Answer::supported;
+    for (std::size_t row = 0; row < begin; ++row) look_at_row(row, all);
+    for (std::size_t row = end; row < rows; ++row) look_at_row(row, all);
+    if (has(hn::Lt(all.off, band_.within))) return Answer::supported;
+    const bool is_nearer = has(hn::Le(all.inside_least, band_.near));
+    const bool is_farther = has(hn::Ge(all.inside_greatest, band_.far));
+    const bool any = is_nearer || is_farther || has(hn::Le(all.inside_least, all.inside_greatest));
+    remains.evidence = {.any = any, .not_farther = is_nearer, .not_nearer = is_farther};
+    const bool borders_matter = (!is_nearer && has(hn::Le(all.least, band_.near))) ||
+                                (!is_farther && has(hn::Ge(all.greatest, band_.far))) || has(all.open);
     if (!borders_matter) {
-      if (!inside.any) return Answer::unseen;
+      if (!any) return Answer::unseen;
       if (is_nearer) return is_farther ? Answer::ambiguous : Answer::occluded;
     }
     list_cells(!is_nearer, !is_farther, remains);
@@ -116,31 +98,53 @@ class ConeWindow {
  private:
   static bool has(FloatMask mask) { return !hn::AllFalse(FloatTag(), mask); }
 
-  struct Sums {
-    Sums() {
-      any = supports = open = hn::FirstN(FloatTag(), 0);
-      not_farther = not_nearer = border_nearer = border_farther = any;
+  /// Of all cells together: bounds of ranges, also of the cells inside alone, the least distance of those from the
+  /// point's range, and whether returns of a cell may lie in the band.
+  struct Bounds {
+    Bounds() {
+      least = inside_least = off = constant(std::numeric_limits<float>::infinity());
+      greatest = inside_greatest = hn::Neg(least);
+      open = hn::FirstN(FloatTag(), 0);
     }
-    FloatMask any, supports, open, not_farther, not_nearer, border_nearer, border_farther;
+    Floats least, greatest, inside_least, inside_greatest, off;
+    FloatMask open;
+  };
+
+  /// The bounds of one vector of cells, next to each other in a row; infinite where there is no cell or no return.
+  struct Cells {
+    Cells(const PriorIndex::Impl& index, const RangeBand& band, const ConeSpans::Span& span, std::int32_t k) {
+      const FloatTag d;
+      const FloatMask present = hn::FirstN(d, static_cast<std::size_t>(span.count - k));
+      least = hn::LoadU(d, index.least_m.data() + span.first + k);
+      greatest = hn::LoadU(d, index.greatest_m.data() + span.first + k);
+      least = hn::IfThenElse(present, least, constant(std::numeric_limits<float>::infinity()));
+      greatest = hn::IfThenElse(present, greatest, constant(-std::numeric_limits<float>::infinity()));
+      inside = mask_of(span.inside >> k);
+      open = hn::And(hn::Lt(least, band.far), hn::Gt(greatest, band.near));
+    }
+    Floats least, greatest;
+    FloatMask inside;
+    FloatMask open;  ///< whose returns may lie in the band
   };
 
   template <class Visit>
   HWY_INLINE void for_each_vector_of(std::size_t row, Visit visit) const {
     const ConeSpans::Span span = spans_.span(row, lane_);
     for (std::int32_t k = 0; k < span.count; k += static_cast<std::int32_t>(hn::Lanes(FloatTag()))) {
-      visit(CellMasks(index_, band_, span, k), span, k);
+      visit(Cells(index_, band_, span, k), k);
     }
   }
 
-  HWY_INLINE void look_at_row(std::size_t row, Sums& sums) const {
-    for_each_vector_of(row, [&](const CellMasks& cells, const ConeSpans::Span&, std::int32_t) HWY_ATTR {
-      sums.supports = hn::Or(sums.supports, cells.supports);
-      sums.open = hn::Or(sums.open, cells.open);
-      sums.any = hn::Or(sums.any, cells.inside);
-      sums.not_farther = hn::Or(sums.not_farther, hn::And(cells.inside, cells.some_nearer));
-      sums.not_nearer = hn::Or(sums.not_nearer, hn::And(cells.inside, cells.some_farther));
-      sums.border_nearer = hn::Or(sums.border_nearer, hn::And(cells.border, cells.all_nearer));
-      sums.border_farther = hn::Or(sums.border_farther, hn::And(cells.border, cells.all_farther));
+  HWY_INLINE void look_at_row(std::size_t row, Bounds& all) const {
+    for_each_vector_of(row, [&](const Cells& cells, std::int32_t) HWY_ATTR {
+      const Floats off = hn::Min(hn::Abs(hn::Sub(cells.least, band_.rho)), hn::Abs(hn::Sub(cells.greatest, band_.rho)));
+      all.off = hn::IfThenElse(cells.inside, hn::Min(all.off, off), all.off);
+      all.inside_least = hn::IfThenElse(cells.inside, hn::Min(all.inside_least, cells.least), all.inside_least);
+      all.inside_greatest =
+          hn::IfThenElse(cells.inside, hn::Max(all.inside_greatest, cells.greatest), all.inside_greatest);
+      all.least = hn::Min(all.least, cells.least);
+      all.greatest = hn::Max(all.greatest, cells.greatest);
+      all.open = hn::Or(all.open, cells.open);
     });
   }
 
@@ -148,19 +152,22 @@ class ConeWindow {
   HWY_NOINLINE void list_cells(bool with_nearer, bool with_farther, Remains& remains) const {
     bool west = false, east = false, south = false, north = false;
     for (std::size_t row = 0; row < spans_.rows(); ++row) {
-      for_each_vector_of(row, [&](const CellMasks& cells, const ConeSpans::Span& span, std::int32_t k) {
+      const std::int32_t first = spans_.span(row, lane_).first;
+      const ConeSpans::Sides sides = spans_.sides(row, lane_);
+      for_each_vector_of(row, [&](const Cells& cells, std::int32_t k) HWY_ATTR {
+        const FloatMask full = hn::Le(cells.least, cells.greatest), border = hn::AndNot(cells.inside, full);
         FloatMask listed = cells.open;
-        if (with_nearer) listed = hn::Or(listed, hn::And(cells.border, cells.all_nearer));
-        if (with_farther) listed = hn::Or(listed, hn::And(cells.border, cells.all_farther));
+        if (with_nearer) listed = hn::Or(listed, hn::And(border, hn::Le(cells.greatest, band_.near)));
+        if (with_farther) listed = hn::Or(listed, hn::And(border, hn::Ge(cells.least, band_.far)));
         for (std::uint32_t bits = bits_of(listed); bits != 0; bits &= bits - 1) {
-          remains.add(static_cast<std::uint32_t>(span.first + k + std::countr_zero(bits)));
+          remains.add(static_cast<std::uint32_t>(first + k + std::countr_zero(bits)));
         }
-        const std::uint32_t inside = bits_of(cells.inside);
+        const std::uint32_t inside = bits_of(hn::And(cells.inside, full));
         if (inside == 0) return;
-        west |= k + std::countr_zero(inside) < span.west_end;
-        east |= k + 31 - std::countl_zero(inside) >= span.east_first;
-        south |= spans_.side(row, lane_) < 0;
-        north |= spans_.side(row, lane_) > 0;
+        west |= k + std::countr_zero(inside) < sides.west_end;
+        east |= k + 31 - std::countl_zero(inside) >= sides.east_first;
+        south |= sides.is_south;
+        north |= sides.is_north;
       });
     }
     remains.is_surrounded = west && east && south && north;
