@@ -27,6 +27,8 @@ class ConeSpans {
       : grid_(prior.index.grid.view()),
         outer_rad_(static_cast<float>(prior.thresholds.angle_rad * (1.0 + 1e-5) + kMargin_rad)),
         inner_rad_(static_cast<float>(prior.thresholds.angle_rad * (1.0 - 1e-5) - kMargin_rad)),
+        outer_haversine_(haversine_of(outer_rad_)),
+        inner_haversine_(haversine_of(inner_rad_)),
         fits_(prior.thresholds.angle_rad < 0.1 && inner_rad_ > 0.0f &&
               2.0f * outer_rad_ * grid_.rows_per_rad + 2.0f < static_cast<float>(kMostRows)) {}
 
@@ -57,11 +59,13 @@ class ConeSpans {
     const Floats turn = hn::MulAdd(azimuth, constant(0.5f * std::numbers::inv_pi_v<float>), constant(0.5f));
     unfit_ = hn::FirstN(d, 0);
     rows_ = 0;
+    most_columns_ = hn::Zero(IntTag());
     for (Floats row = low; rows_ < kMostRows; row = hn::Add(row, constant(1.0f)), ++rows_) {
       const FloatMask active = hn::And(present, hn::Le(row, high));
       if (hn::AllFalse(d, active)) break;
       find_in_row(row, active, turn, elevation, cosine);
     }
+    pair_rows();
     hn::Store(hn::IfThenElseZero(unfit_, constant(1.0f)), d, is_unfit_);
     hn::Store(low, d, low_);
     hn::Store(turn, d, turn_);
@@ -71,8 +75,20 @@ class ConeSpans {
 
   std::size_t rows() const { return rows_; }
   Span span(std::size_t row, std::size_t lane) const {
-    return {first_[row][lane], count_[row][lane], inside_[row][lane]};
+    return {first_[row][lane], count_[row][lane], static_cast<std::uint32_t>(inside_[row][lane])};
   }
+  /// Two rows of one point in one vector of cells: the first half of the lanes, and bits, stands for row 2 * `pair`,
+  /// the other for the next. Only when all rows of all points are that short.
+  struct PairedSpan {
+    std::int32_t first, next_first;
+    std::uint32_t present, inside;
+  };
+  bool are_paired() const { return are_paired_; }
+  PairedSpan paired_span(std::size_t pair, std::size_t lane) const {
+    return {first_[2 * pair][lane], first_[2 * pair + 1][lane], static_cast<std::uint32_t>(paired_present_[pair][lane]),
+            static_cast<std::uint32_t>(paired_inside_[pair][lane])};
+  }
+
   /// Of one row and all points.
   Ints first(std::size_t row) const { return hn::Load(IntTag(), first_[row]); }
   Ints count(std::size_t row) const { return hn::Load(IntTag(), count_[row]); }
@@ -98,6 +114,7 @@ class ConeSpans {
  private:
   static constexpr double kMargin_rad = 8.0 * kDirectionError_rad;
 
+  static float haversine_of(float angle_rad) { return hn::GetLane(haversine(constant(angle_rad))); }
   static Floats haversine(Floats angle) {  // of angles below 0.3
     const Floats s = hn::Mul(angle, angle);
     const Floats series = hn::NegMulAdd(s, constant(1.0f / 360.0f), constant(1.0f / 12.0f));
@@ -119,6 +136,23 @@ class ConeSpans {
     return {hn::Mul(hn::Add(sine, sine), hn::MulAdd(q, series, constant(1.0f))), q};
   }
 
+  void pair_rows() {
+    const IntTag di;
+    constexpr int kHalf = static_cast<int>(kMostLanes / 2);
+    are_paired_ = HWY_TARGET != HWY_SCALAR && hn::AllFalse(di, hn::Gt(most_columns_, hn::Set(di, kHalf)));
+    if (!are_paired_) return;
+    const Ints zero = hn::Zero(di), ones = hn::Set(di, 1);
+    hn::Store(zero, di, first_[rows_]);
+    hn::Store(zero, di, count_[rows_]);
+    hn::Store(zero, di, inside_[rows_]);
+    const auto present = [&](std::size_t row) { return hn::Sub(hn::Shl(ones, count(row)), ones); };
+    const auto inside = [&](std::size_t row) { return hn::Load(di, inside_[row]); };
+    for (std::size_t row = 0; row < rows_; row += 2) {
+      hn::Store(hn::Or(present(row), hn::ShiftLeft<kHalf>(present(row + 1))), di, paired_present_[row / 2]);
+      hn::Store(hn::Or(inside(row), hn::ShiftLeft<kHalf>(inside(row + 1))), di, paired_inside_[row / 2]);
+    }
+  }
+
   /// As `Cone::widths` and `Cone::columns_of`, but with bounds of the cosines in the row that follow from its number of
   /// columns c: c - 1 < 2 pi / cell * greatest <= c, and the least is smaller by at most a cell.
   void find_in_row(Floats row, FloatMask active, Floats turn, Floats elevation, Floats cosine) {
@@ -134,9 +168,9 @@ class ConeSpans {
     const Floats below = hn::Sub(elevation, hn::Add(bottom, constant(grid_.cell_rad)));
     const Floats nearest = hn::Max(zero, hn::Max(above, below));
     const Floats farthest = hn::Max(hn::Abs(above), hn::Abs(below));
-    const Floats outer = hn::Sub(haversine(constant(outer_rad_)), haversine(nearest));
-    const Floats inner = hn::Sub(haversine(constant(inner_rad_)), haversine(farthest));
-    const Floats scale = hn::Mul(cosine, constant(grid_.cell_rad / kTurn));
+    const Floats outer = hn::Sub(constant(outer_haversine_), haversine(nearest));
+    const Floats inner = hn::Sub(constant(inner_haversine_), haversine(farthest));
+    const Floats scale = hn::Mul(cosine, constant(grid_.cell_rad * (1.0f / kTurn)));
     const Floats least = hn::Max(hn::Sub(columns, constant(1.001f + kTurn)), constant(1e-3f));
     const Angle outer_angle = angle_of_haversine(outer, hn::Mul(scale, least));
     const Angle inner_angle = angle_of_haversine(inner, hn::Mul(scale, columns));
@@ -159,20 +193,25 @@ class ConeSpans {
     const Ints inside = hn::Sub(hn::Shl(ones, as_int(inner_end)), hn::Shl(ones, as_int(inner_first)));
     const FloatMask has_inside = hn::And(hn::And(hn::Gt(inner, zero), usable), hn::Gt(inner_end, inner_first));
     hn::Store(hn::Add(base, as_int(first)), di, first_[rows_]);
-    hn::Store(as_int(hn::Add(hn::Sub(last, first), one)), di, count_[rows_]);
-    hn::Store(hn::IfThenElseZero(hn::RebindMask(di, has_inside), inside), di,
-              reinterpret_cast<std::int32_t*>(inside_[rows_]));
+    const Ints count = as_int(hn::Add(hn::Sub(last, first), one));
+    most_columns_ = hn::Max(most_columns_, count);
+    hn::Store(count, di, count_[rows_]);
+    hn::Store(hn::IfThenElseZero(hn::RebindMask(di, has_inside), inside), di, inside_[rows_]);
   }
 
   DirectionGridView grid_;
   float outer_rad_, inner_rad_;
+  float outer_haversine_, inner_haversine_;
   bool fits_;
   std::size_t rows_ = 0;
   FloatMask unfit_ = hn::FirstN(FloatTag(), 0);
   HWY_ALIGN float is_unfit_[kMostLanes] = {};
   HWY_ALIGN float low_[kMostLanes], turn_[kMostLanes], elevation_rad_[kMostLanes], cosine_[kMostLanes];
-  HWY_ALIGN std::int32_t first_[kMostRows][kMostLanes], count_[kMostRows][kMostLanes];
-  HWY_ALIGN std::uint32_t inside_[kMostRows][kMostLanes];
+  HWY_ALIGN std::int32_t first_[kMostRows + 1][kMostLanes], count_[kMostRows + 1][kMostLanes];
+  HWY_ALIGN std::int32_t inside_[kMostRows + 1][kMostLanes];  // bits
+  bool are_paired_ = false;
+  Ints most_columns_ = hn::Zero(IntTag());
+  HWY_ALIGN std::int32_t paired_present_[kMostRows / 2][kMostLanes], paired_inside_[kMostRows / 2][kMostLanes];
 };
 
 }  // namespace raywatch::HWY_NAMESPACE

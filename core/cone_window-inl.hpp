@@ -72,14 +72,14 @@ class ConeWindow {
     remains.count = 0;
     remains.is_complete = spans_.fits(lane_);
     if (!remains.is_complete) return std::nullopt;
-    // The middle rows first, where most support is. No branch depends on a single row: it could not be predicted.
-    const std::size_t rows = spans_.rows(), begin = rows / 3, end = rows - rows / 3;
     Bounds all;
-    for (std::size_t row = begin; row < end; ++row) look_at_row(row, all);
-    if (has(hn::Lt(all.off, band_.within))) return Answer::supported;
-    for (std::size_t row = 0; row < begin; ++row) look_at_row(row, all);
-    for (std::size_t row = end; row < rows; ++row) look_at_row(row, all);
-    if (has(hn::Lt(all.off, band_.within))) return Answer::supported;
+    if (spans_.are_paired()) {
+      look_at_rows((spans_.rows() + 1) / 2, all,
+                   [this](std::size_t pair, Bounds& sum) HWY_ATTR { look_at_pair(pair, sum); });
+    } else {
+      look_at_rows(spans_.rows(), all, [this](std::size_t row, Bounds& sum) HWY_ATTR { look_at_row(row, sum); });
+    }
+    if (is_supported(all)) return Answer::supported;
     const bool is_nearer = has(hn::Le(all.inside_least, band_.near));
     const bool is_farther = has(hn::Ge(all.inside_greatest, band_.far));
     const bool any = is_nearer || is_farther || has(hn::Le(all.inside_least, all.inside_greatest));
@@ -110,42 +110,71 @@ class ConeWindow {
     FloatMask open;
   };
 
-  /// The bounds of one vector of cells, next to each other in a row; infinite where there is no cell or no return.
+  bool is_supported(const Bounds& all) const { return has(hn::Lt(all.off, band_.within)); }
+
+  /// The bounds of one vector of cells; infinite where there is no cell or no return.
   struct Cells {
-    Cells(const PriorIndex::Impl& index, const RangeBand& band, const ConeSpans::Span& span, std::int32_t k) {
-      const FloatTag d;
-      const FloatMask present = hn::FirstN(d, static_cast<std::size_t>(span.count - k));
-      least = hn::LoadU(d, index.least_m.data() + span.first + k);
-      greatest = hn::LoadU(d, index.greatest_m.data() + span.first + k);
-      least = hn::IfThenElse(present, least, constant(std::numeric_limits<float>::infinity()));
-      greatest = hn::IfThenElse(present, greatest, constant(-std::numeric_limits<float>::infinity()));
-      inside = mask_of(span.inside >> k);
-      open = hn::And(hn::Lt(least, band.far), hn::Gt(greatest, band.near));
-    }
+    Cells(Floats any_least, Floats any_greatest, FloatMask present, FloatMask in, const RangeBand& band)
+        : least(hn::IfThenElse(present, any_least, constant(std::numeric_limits<float>::infinity()))),
+          greatest(hn::IfThenElse(present, any_greatest, constant(-std::numeric_limits<float>::infinity()))),
+          inside(in),
+          open(hn::And(hn::Lt(least, band.far), hn::Gt(greatest, band.near))) {}
     Floats least, greatest;
     FloatMask inside;
     FloatMask open;  ///< whose returns may lie in the band
   };
 
-  template <class Visit>
-  HWY_INLINE void for_each_vector_of(std::size_t row, Visit visit) const {
-    const ConeSpans::Span span = spans_.span(row, lane_);
-    for (std::int32_t k = 0; k < span.count; k += static_cast<std::int32_t>(hn::Lanes(FloatTag()))) {
-      visit(Cells(index_, band_, span, k), k);
-    }
+  /// The middle rows first, where most support is. No branch depends on a single row: it could not be predicted.
+  template <class Look>
+  HWY_INLINE void look_at_rows(std::size_t rows, Bounds& all, Look look) const {
+    const std::size_t begin = rows / 3, end = rows - rows / 3;
+    for (std::size_t row = begin; row < end; ++row) look(row, all);
+    if (is_supported(all)) return;
+    for (std::size_t row = 0; row < begin; ++row) look(row, all);
+    for (std::size_t row = end; row < rows; ++row) look(row, all);
+  }
+
+  HWY_INLINE void look_at_pair(std::size_t pair, Bounds& all) const {
+#if HWY_TARGET != HWY_SCALAR
+    const FloatTag d;
+    const hn::Half<FloatTag> dh;
+    const ConeSpans::PairedSpan span = spans_.paired_span(pair, lane_);
+    const float *least = index_.least_m.data(), *greatest = index_.greatest_m.data();
+    add(Cells(hn::Combine(d, hn::LoadU(dh, least + span.next_first), hn::LoadU(dh, least + span.first)),
+              hn::Combine(d, hn::LoadU(dh, greatest + span.next_first), hn::LoadU(dh, greatest + span.first)),
+              mask_of(span.present), mask_of(span.inside), band_),
+        all);
+#else
+    HWY_ASSERT(false && pair && &all);
+#endif
   }
 
   HWY_INLINE void look_at_row(std::size_t row, Bounds& all) const {
-    for_each_vector_of(row, [&](const Cells& cells, std::int32_t) HWY_ATTR {
-      const Floats off = hn::Min(hn::Abs(hn::Sub(cells.least, band_.rho)), hn::Abs(hn::Sub(cells.greatest, band_.rho)));
-      all.off = hn::IfThenElse(cells.inside, hn::Min(all.off, off), all.off);
-      all.inside_least = hn::IfThenElse(cells.inside, hn::Min(all.inside_least, cells.least), all.inside_least);
-      all.inside_greatest =
-          hn::IfThenElse(cells.inside, hn::Max(all.inside_greatest, cells.greatest), all.inside_greatest);
-      all.least = hn::Min(all.least, cells.least);
-      all.greatest = hn::Max(all.greatest, cells.greatest);
-      all.open = hn::Or(all.open, cells.open);
-    });
+    for_each_vector_of(row, [&](const Cells& cells, std::int32_t) HWY_ATTR { add(cells, all); });
+  }
+
+  /// Calls `visit(cells, k)` for the vectors of cells of a row; the first cell of each is the k-th of the row.
+  template <class Visit>
+  HWY_INLINE void for_each_vector_of(std::size_t row, Visit visit) const {
+    const FloatTag d;
+    const ConeSpans::Span span = spans_.span(row, lane_);
+    const float *least = index_.least_m.data() + span.first, *greatest = index_.greatest_m.data() + span.first;
+    for (std::int32_t k = 0; k < span.count; k += static_cast<std::int32_t>(hn::Lanes(d))) {
+      visit(Cells(hn::LoadU(d, least + k), hn::LoadU(d, greatest + k),
+                  hn::FirstN(d, static_cast<std::size_t>(span.count - k)), mask_of(span.inside >> k), band_),
+            k);
+    }
+  }
+
+  HWY_INLINE void add(const Cells& cells, Bounds& all) const {
+    const Floats off = hn::Min(hn::Abs(hn::Sub(cells.least, band_.rho)), hn::Abs(hn::Sub(cells.greatest, band_.rho)));
+    all.off = hn::IfThenElse(cells.inside, hn::Min(all.off, off), all.off);
+    all.inside_least = hn::IfThenElse(cells.inside, hn::Min(all.inside_least, cells.least), all.inside_least);
+    all.inside_greatest =
+        hn::IfThenElse(cells.inside, hn::Max(all.inside_greatest, cells.greatest), all.inside_greatest);
+    all.least = hn::Min(all.least, cells.least);
+    all.greatest = hn::Max(all.greatest, cells.greatest);
+    all.open = hn::Or(all.open, cells.open);
   }
 
   /// Lists the cells whose returns can make a difference, and finds whether cells inside lie to every side of the axis.
