@@ -186,7 +186,11 @@ class ConeSpans {
                                      hn::Ge(hn::Sub(last, first), constant(static_cast<float>(kMostColumns))));
     unfit_ = hn::Or(unfit_, hn::And(touches, hn::Or(wraps, is_wide)));
     const FloatMask usable = hn::AndNot(unfit_, touches);
-    const auto as_int = [&](Floats value) { return hn::ConvertTo(di, hn::IfThenElseZero(usable, value)); };
+    // Whole numbers below 2^23 stand in the mantissa of their sum with it.
+    const Floats two23 = constant(8388608.0f);
+    const auto as_int = [&](Floats value) HWY_ATTR {
+      return hn::Sub(hn::BitCast(di, hn::Add(hn::IfThenElseZero(usable, value), two23)), hn::BitCast(di, two23));
+    };
     const Floats inner_first = hn::Sub(hn::Max(first, hn::Ceil(hn::Sub(center, inner_columns))), first);
     const Floats inner_end = hn::Sub(hn::Min(hn::Add(last, one), hn::Floor(hn::Add(center, inner_columns))), first);
     const Ints ones = hn::Set(di, 1);

@@ -39,10 +39,13 @@ double spacing_rad(const ScanView& view) {
   return view.sensor.angular_resolution_rad ? view.sensor.angular_resolution_rad->maxCoeff() : 0.0;
 }
 
-double angle_for(const ScanView& view, const CompareParameters& parameters) {
-  if (parameters.angle_rad) return *parameters.angle_rad;
+double neighbour_angle(const ScanView& view) {
   const double spacing = spacing_rad(view);
   return spacing > 0.0 ? std::min(kAnglePerSpacing * spacing, std::numbers::pi / 2) : kFallbackAngle_rad;
+}
+
+double angle_for(const ScanView& view, const CompareParameters& parameters) {
+  return parameters.angle_rad.value_or(neighbour_angle(view));
 }
 
 void warn_of_coarse_rings(const ScanView& view, double angle_rad, const std::string& name,
@@ -107,6 +110,12 @@ class Detector {
     return {angle_for(asked, parameters_), parameters_.range_m};
   }
 
+  /// For `weigh`: a surface needs neighbours on every side. Farther ones, which a wide T_a would add, only make it less
+  /// flat.
+  Thresholds surface_thresholds_for(const ScanView& asked) const {
+    return {std::min(angle_for(asked, parameters_), neighbour_angle(asked)), parameters_.range_m};
+  }
+
   std::vector<Answers> ask_priors(std::span<const std::uint8_t> valid) const {
     std::vector<Answers> answers(priors_.size(), Answers(scan_.points.size()));
     for (std::size_t p = 0; p < priors_.size(); ++p) {
@@ -122,7 +131,7 @@ class Detector {
     Answers chosen;
     for (const std::uint32_t i : places) chosen.push_back(answers[i]);
     weigh(asked.index, points_at(view.points, places), asked.world_from_sensor.inverse() * view.world_from_sensor,
-          thresholds_for(asked), tolerance_between(asked, view, parameters_), chosen);
+          surface_thresholds_for(asked), tolerance_between(asked, view, parameters_), chosen);
     for (std::size_t k = 0; k < places.size(); ++k) answers[places[k]] = chosen[k];
   }
 
@@ -284,7 +293,7 @@ class Detector {
     const Pose q_from_p = priors_[q].world_from_sensor.inverse() * priors_[p].world_from_sensor;
     ask(priors_[q].index, points, valid, q_from_p, thresholds_for(priors_[q]), answers);
     if (weighs_) {
-      weigh(priors_[q].index, points, q_from_p, thresholds_for(priors_[q]),
+      weigh(priors_[q].index, points, q_from_p, surface_thresholds_for(priors_[q]),
             tolerance_between(priors_[q], priors_[p], parameters_), answers);
     }
     return answers;
