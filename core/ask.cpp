@@ -7,35 +7,15 @@
 #include <string>
 
 #include "core/ask_kernels.hpp"
-#include "core/cone.hpp"
 #include "core/error.hpp"
 #include "core/for_each_point.hpp"
+#include "core/nearest_return.hpp"
 #include "core/prior_index_impl.hpp"
 
 namespace raywatch {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-/// Looks into the cone that a ball around the point fills, seen from the prior. Nothing is near a sensor itself.
-bool has_near_return(const PriorIndex::Impl& prior, const Eigen::Vector3d& point_m, double distance_m) {
-  const double range_m = point_m.norm();
-  if (!(range_m > distance_m)) return false;
-  bool found = false;
-  const auto look_at_cell = [&](std::uint32_t cell, bool) {
-    const double rounding_m = kRangeError * (range_m + distance_m);
-    if (prior.least_m[cell] > range_m + distance_m + rounding_m) return true;
-    if (prior.greatest_m[cell] < range_m - distance_m - rounding_m) return true;
-    for (std::uint32_t i = prior.first[cell]; i < prior.first[cell + 1] && !found; ++i) {
-      const Eigen::Vector3d p = point_of(prior.returns[i]);
-      found = (p - point_m).squaredNorm() < distance_m * distance_m;
-    }
-    return !found;
-  };
-  const Direction direction = direction_of(point_m.x(), point_m.y(), point_m.z());
-  Cone(std::asin(distance_m / range_m)).for_each_cell(prior.grid, direction, look_at_cell);
-  return found;
-}
 
 void check(const Thresholds& thresholds) {
   if (!(thresholds.angle_rad > 0.0 && thresholds.angle_rad <= kPi / 2)) {
@@ -69,7 +49,8 @@ void find_near_returns(const PriorIndex& prior, const PointCloud& points, const 
                        double distance_m, std::span<std::uint8_t> near) {
   const PriorIndex::Impl& impl = prior.impl();
   for_each_point(points, prior_from_points, [&](std::size_t i, const Eigen::Vector3d& point_m) {
-    near[i] = has_near_return(impl, point_m, distance_m);
+    // Nothing is near a sensor itself.
+    near[i] = point_m.norm() > distance_m && nearest_return_m(impl, point_m, distance_m, distance_m) < distance_m;
   });
 }
 

@@ -24,6 +24,11 @@ double spacing_rad(const ScanView& view) {
   return view.sensor.angular_resolution_rad ? view.sensor.angular_resolution_rad->maxCoeff() : 0.0;
 }
 
+double neighbour_angle_rad(const ScanView& view) {
+  const double spacing = spacing_rad(view);
+  return spacing > 0.0 ? std::min(kAnglePerSpacing * spacing, std::numbers::pi / 2) : kFallbackAngle_rad;
+}
+
 Pose asked_from_view(const ScanView& asked, const ScanView& view) {
   return asked.world_from_sensor.inverse() * view.world_from_sensor;
 }
@@ -35,9 +40,11 @@ bool Asking::weighs() const {
 }
 
 double Asking::angle_rad(const ScanView& asked) const {
-  if (parameters_.angle_rad) return *parameters_.angle_rad;
-  const double spacing = spacing_rad(asked);
-  return spacing > 0.0 ? std::min(kAnglePerSpacing * spacing, std::numbers::pi / 2) : kFallbackAngle_rad;
+  return parameters_.angle_rad.value_or(neighbour_angle_rad(asked));
+}
+
+Thresholds Asking::surface_thresholds(const ScanView& asked) const {
+  return {std::min(angle_rad(asked), neighbour_angle_rad(asked)), parameters_.range_m};
 }
 
 Answers Asking::ask_all(const ScanView& asked, const ScanView& view, std::span<const std::uint8_t> valid) const {
@@ -52,7 +59,7 @@ Answers Asking::ask_at(const ScanView& asked, const ScanView& view, std::span<co
   const Pose pose = asked_from_view(asked, view);
   ask(asked.index, points, std::vector<std::uint8_t>(places.size(), 1), pose, thresholds(asked), answers);
   if (weighs()) {
-    weigh(asked.index, points, pose, thresholds(asked), tolerance_between(asked, view, parameters_), answers);
+    weigh(asked.index, points, pose, surface_thresholds(asked), tolerance_between(asked, view, parameters_), answers);
   }
   return answers;
 }
@@ -65,7 +72,7 @@ void Asking::look_closely(const ScanView& asked, const ScanView& view, std::span
   chosen.reserve(places.size());
   for (const std::uint32_t i : places) chosen.push_back(answers[i]);
   const Pose pose = asked_from_view(asked, view);
-  weigh(asked.index, points, pose, thresholds(asked), tolerance_between(asked, view, parameters_), chosen);
+  weigh(asked.index, points, pose, surface_thresholds(asked), tolerance_between(asked, view, parameters_), chosen);
   ask_footprints(asked, points, pose, parameters_.range_m, chosen);
   for (std::size_t k = 0; k < places.size(); ++k) answers[places[k]] = chosen[k];
 }

@@ -38,6 +38,9 @@ class Asking {
 
  private:
   Thresholds thresholds(const ScanView& asked) const { return {angle_rad(asked), parameters_.range_m}; }
+  /// For `weigh`: a surface needs neighbours on every side. Farther ones, which a wide T_a would add, only make it less
+  /// flat.
+  Thresholds surface_thresholds(const ScanView& asked) const;
 
   const CompareParameters& parameters_;
 };

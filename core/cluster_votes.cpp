@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/nearest_return.hpp"
 #include "core/returns_near.hpp"
 #include "core/smoothness.hpp"
 
@@ -129,11 +130,8 @@ double clearance_m(const ScanView& asked, const Sample& sample) {
   constexpr double kGreatest_m = 1.0;
   std::vector<double> distances_m;
   for (const Eigen::Vector3d& point_m : sample.asked_m) {
-    double nearest_m2 = kGreatest_m * kGreatest_m;
-    for_each_return_around(asked.index.impl(), point_m, kGreatest_m, [&](std::uint32_t i) {
-      nearest_m2 = std::min(nearest_m2, (point_of(asked.index.impl().returns[i]) - point_m).squaredNorm());
-    });
-    distances_m.push_back(std::sqrt(nearest_m2));
+    const bool far = point_m.norm() > kGreatest_m;
+    distances_m.push_back(far ? nearest_return_m(asked.index.impl(), point_m, 0.0, kGreatest_m) : kGreatest_m);
   }
   const auto median = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
   std::nth_element(distances_m.begin(), median, distances_m.end());

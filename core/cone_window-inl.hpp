@@ -9,15 +9,15 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <optional>
 
+#include "core/cone_spans-inl.hpp"
 #include "core/inquiry.hpp"
 #include "core/spherical_simd-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace raywatch::HWY_NAMESPACE {
-
-constexpr std::size_t kMostLanes = HWY_MAX_BYTES / sizeof(float);
 
 /// Points that their own cells did not decide, one after the other: places in the block, and directions in the prior's
 /// frame.
@@ -55,165 +55,11 @@ inline std::uint32_t bits_of(FloatMask mask) {
   return bits;
 }
 
-/// The cells that the cones of one vector of points touch: `Cone::for_each_row` for vectors, with the same meaning of
-/// touched and inside, for cones that are small against the sphere and away from its poles and the seam.
-class ConeSpans {
- public:
-  static constexpr std::size_t kMostRows = 24;
-
-  explicit ConeSpans(const PreparedPrior& prior)
-      : grid_(prior.index.grid.view()),
-        outer_rad_(static_cast<float>(prior.thresholds.angle_rad * (1.0 + 1e-5) + kMargin_rad)),
-        inner_rad_(static_cast<float>(prior.thresholds.angle_rad * (1.0 - 1e-5) - kMargin_rad)),
-        fits_(prior.thresholds.angle_rad < 0.1 && inner_rad_ > 0.0f &&
-              2.0f * outer_rad_ * grid_.rows_per_rad + 2.0f < static_cast<float>(kMostRows)) {}
-
-  static constexpr std::int32_t kMostColumns = 32;
-
-  /// Of one row and one point. `first` counts cells of the whole grid, the others columns from there. Every direction
-  /// in the columns before `west_end` is west of the axis of the cone, in those from `east_first` on east.
-  struct Span {
-    std::int32_t first, count, inner_first, inner_end, west_end, east_first;
-  };
-
-  /// Finds the spans of `count` points from `begin` on.
-  void find(const OpenPoints& open, std::size_t begin, std::size_t count) {
-    const FloatTag d;
-    if (!fits_) return;
-    const FloatMask present = hn::FirstN(d, count);
-    const Floats azimuth = hn::LoadU(d, open.azimuth_rad + begin);
-    const Floats elevation = hn::LoadU(d, open.elevation_rad + begin);
-    const Floats cosine = hn::LoadU(d, open.cosine + begin);
-    const auto row_of = [&](Floats angle) {
-      return hn::Floor(hn::Mul(hn::Sub(angle, constant(grid_.low_rad)), constant(grid_.rows_per_rad)));
-    };
-    const Floats reach = constant(outer_rad_);
-    const Floats low = hn::Max(row_of(hn::Sub(elevation, reach)), hn::Zero(d));
-    const Floats high = hn::Min(row_of(hn::Add(elevation, reach)), constant(static_cast<float>(grid_.rows - 1)));
-    unfit_ = hn::FirstN(d, 0);
-    rows_ = 0;
-    // North and south turn over not exactly at the elevation of the point but, off its meridian, a little beside it.
-    const Floats tangent = hn::Div(hn::Abs(elevation), hn::Max(cosine, constant(1e-6f)));
-    tilt_ = hn::MulAdd(constant(outer_rad_ * outer_rad_), tangent, constant(4e-6f));
-    for (Floats row = low; rows_ < kMostRows; row = hn::Add(row, constant(1.0f)), ++rows_) {
-      const FloatMask active = hn::And(present, hn::Le(row, high));
-      if (hn::AllFalse(d, active)) break;
-      find_in_row(row, active, azimuth, elevation, cosine);
-    }
-    hn::Store(hn::IfThenElseZero(unfit_, constant(1.0f)), d, is_unfit_);
-  }
-
-  std::size_t rows() const { return rows_; }
-  Span span(std::size_t row, std::size_t lane) const {
-    return {first_[row][lane],     count_[row][lane],    inner_first_[row][lane],
-            inner_end_[row][lane], west_end_[row][lane], east_first_[row][lane]};
-  }
-  /// 1: every direction in the row is north of the point; -1: south; 0: neither is sure.
-  std::int32_t side(std::size_t row, std::size_t lane) const { return side_[row][lane]; }
-  bool fits(std::size_t lane) const { return fits_ && is_unfit_[lane] == 0.0f; }
-
- private:
-  static constexpr double kMargin_rad = 8.0 * kDirectionError_rad;
-
-  static Floats haversine(Floats angle) {  // of angles below 0.3
-    const Floats s = hn::Mul(angle, angle);
-    const Floats series = hn::NegMulAdd(s, constant(1.0f / 360.0f), constant(1.0f / 12.0f));
-    return hn::Mul(hn::Mul(s, constant(0.25f)), hn::NegMulAdd(s, series, constant(1.0f)));
-  }
-  /// The angle whose haversine is `value`, below 0.02; 0 for negative ones.
-  static Floats angle_of_haversine(Floats value) {
-    const Floats q = hn::Max(value, hn::Zero(FloatTag()));
-    const Floats series = hn::MulAdd(q, constant(3.0f / 40.0f), constant(1.0f / 6.0f));
-    return hn::Mul(hn::Mul(constant(2.0f), hn::Sqrt(q)), hn::MulAdd(q, series, constant(1.0f)));
-  }
-
-  /// As `Cone::widths` and `Cone::columns_of`.
-  void find_in_row(Floats row, FloatMask active, Floats azimuth, Floats elevation, Floats cosine) {
-    const FloatTag d;
-    const IntTag di;
-    const Floats zero = hn::Zero(d), one = constant(1.0f);
-    const Ints index = hn::ConvertTo(di, hn::IfThenElseZero(active, row));
-    const Floats bottom = hn::MulAdd(row, constant(grid_.cell_rad), constant(grid_.low_rad));
-    const Floats above = hn::Sub(bottom, elevation);
-    const Floats below = hn::Sub(elevation, hn::Add(bottom, constant(grid_.cell_rad)));
-    const Floats nearest = hn::Max(zero, hn::Max(above, below));
-    const Floats farthest = hn::Max(hn::Abs(above), hn::Abs(below));
-    const Floats outer = hn::Sub(haversine(constant(outer_rad_)), haversine(nearest));
-    const Floats inner = hn::Sub(haversine(constant(inner_rad_)), haversine(farthest));
-    const Floats outer_scale = hn::Mul(cosine, hn::GatherIndex(d, grid_.least_cosine, index));
-    const Floats inner_scale = hn::Mul(cosine, hn::GatherIndex(d, grid_.greatest_cosine, index));
-    const Floats columns = hn::GatherIndex(d, grid_.columns, index);
-    const Floats per_rad = hn::Mul(columns, constant(0.5f * std::numbers::inv_pi_v<float>));
-    const Floats margin = constant(static_cast<float>(kMargin_rad));
-    const Floats outer_value = hn::Div(outer, hn::Max(outer_scale, constant(1e-12f)));
-    const Floats outer_columns = hn::Mul(hn::Add(angle_of_haversine(outer_value), margin), per_rad);
-    const Floats inner_angle =
-        hn::Sub(angle_of_haversine(hn::Div(inner, hn::Max(inner_scale, constant(1e-12f)))), margin);
-    const Floats inner_columns = hn::Mul(inner_angle, per_rad);
-    const Floats turn = hn::MulAdd(azimuth, constant(0.5f * std::numbers::inv_pi_v<float>), constant(0.5f));
-    const Floats center = hn::Mul(turn, columns);
-    const Floats first = hn::Floor(hn::Sub(center, outer_columns)), last = hn::Floor(hn::Add(center, outer_columns));
-    const FloatMask touches = hn::And(active, hn::Ge(outer, zero));
-    const FloatMask wraps = hn::Or(hn::Lt(first, zero), hn::Ge(last, columns));
-    const FloatMask is_wide = hn::Or(hn::Gt(outer_value, constant(0.02f)),
-                                     hn::Ge(hn::Sub(last, first), constant(static_cast<float>(kMostColumns))));
-    unfit_ = hn::Or(unfit_, hn::And(touches, hn::Or(wraps, is_wide)));
-    const FloatMask has_inside = hn::And(hn::Gt(inner, zero), hn::Gt(inner_angle, zero));
-    const Floats inner_first = hn::Sub(hn::Max(first, hn::Ceil(hn::Sub(center, inner_columns))), first);
-    const Floats inner_end = hn::Sub(hn::Min(hn::Add(last, one), hn::Floor(hn::Add(center, inner_columns))), first);
-    const Ints base = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(grid_.first), index);
-    const FloatMask usable = hn::AndNot(unfit_, touches);
-    const auto as_int = [&](Floats value) { return hn::ConvertTo(di, hn::IfThenElseZero(usable, value)); };
-    hn::Store(hn::Add(base, as_int(first)), di, first_[rows_]);
-    hn::Store(as_int(hn::Add(hn::Sub(last, first), one)), di, count_[rows_]);
-    hn::Store(as_int(hn::IfThenElseZero(has_inside, inner_first)), di, inner_first_[rows_]);
-    hn::Store(as_int(hn::IfThenElseZero(has_inside, inner_end)), di, inner_end_[rows_]);
-    const Floats rounding = hn::MulAdd(columns, constant(1e-6f), constant(0.01f));
-    hn::Store(as_int(hn::Sub(hn::Floor(hn::Sub(center, rounding)), first)), di, west_end_[rows_]);
-    hn::Store(as_int(hn::Sub(hn::Floor(hn::Add(hn::Add(center, rounding), one)), first)), di, east_first_[rows_]);
-    const Floats side =
-        hn::Sub(hn::IfThenElseZero(hn::Gt(above, tilt_), one), hn::IfThenElseZero(hn::Gt(below, tilt_), one));
-    hn::Store(as_int(side), di, side_[rows_]);
-  }
-
-  DirectionGridView grid_;
-  float outer_rad_, inner_rad_;
-  bool fits_;
-  std::size_t rows_ = 0;
-  FloatMask unfit_ = hn::FirstN(FloatTag(), 0);
-  Floats tilt_ = hn::Zero(FloatTag());
-  HWY_ALIGN float is_unfit_[kMostLanes] = {};
-  HWY_ALIGN std::int32_t first_[kMostRows][kMostLanes], count_[kMostRows][kMostLanes];
-  HWY_ALIGN std::int32_t inner_first_[kMostRows][kMostLanes], inner_end_[kMostRows][kMostLanes];
-  HWY_ALIGN std::int32_t west_end_[kMostRows][kMostLanes], east_first_[kMostRows][kMostLanes],
-      side_[kMostRows][kMostLanes];
-};
-
-/// What the bounds of one vector of cells, next to each other in a row, say about one point.
-struct CellMasks {
-  CellMasks(const PriorIndex::Impl& index, const RangeBand& band, const ConeSpans::Span& span, std::int32_t k) {
-    const FloatTag d;
-    const IntTag di;
-    const Ints column = hn::Iota(di, 0);
-    const auto below = [&](std::int32_t bound) { return hn::RebindMask(d, hn::Lt(column, hn::Set(di, bound - k))); };
-    const Floats least = hn::LoadU(d, index.least_m.data() + span.first + k);
-    const Floats greatest = hn::LoadU(d, index.greatest_m.data() + span.first + k);
-    full = hn::And(below(span.count), hn::Le(least, greatest));
-    inside = hn::AndNot(below(span.inner_first), hn::And(full, below(span.inner_end)));
-    border = hn::AndNot(inside, full);
-    all_nearer = hn::Le(greatest, band.near);
-    all_farther = hn::Ge(least, band.far);
-    some_nearer = hn::Le(least, band.near);
-    some_farther = hn::Ge(greatest, band.far);
-    supports = hn::And(inside, band.supports(least, greatest));
-    open = hn::AndNot(hn::Or(all_nearer, all_farther), full);
-  }
-
-  FloatMask full, inside, border;
-  FloatMask all_nearer, all_farther, some_nearer, some_farther;
-  FloatMask supports;
-  FloatMask open;  ///< whose returns may lie in the band
-};
+inline FloatMask mask_of(std::uint32_t bits) {
+  std::uint8_t bytes[8] = {};
+  std::memcpy(bytes, &bits, sizeof bits);
+  return hn::LoadMaskBits(FloatTag(), bytes);
+}
 
 /// Looks at the bounds of all cells that the cone of one point touches.
 class ConeWindow {
@@ -226,21 +72,22 @@ class ConeWindow {
     remains.count = 0;
     remains.is_complete = spans_.fits(lane_);
     if (!remains.is_complete) return std::nullopt;
-    // The middle rows first, where most support is. No branch depends on a single row: it could not be predicted.
-    const std::size_t rows = spans_.rows(), begin = rows / 3, end = rows - rows / 3;
-    Sums sums;
-    for (std::size_t row = begin; row < end; ++row) look_at_row(row, sums);
-    if (has(sums.supports)) return Answer::supported;
-    for (std::size_t row = 0; row < begin; ++row) look_at_row(row, sums);
-    for (std::size_t row = end; row < rows; ++row) look_at_row(row, sums);
-    if (has(sums.supports)) return Answer::supported;
-    Evidence& inside = remains.evidence;
-    inside = {.any = has(sums.any), .not_farther = has(sums.not_farther), .not_nearer = has(sums.not_nearer)};
-    const bool is_nearer = inside.any && inside.not_farther, is_farther = inside.any && inside.not_nearer;
-    const bool borders_matter =
-        (!is_nearer && has(sums.border_nearer)) || (!is_farther && has(sums.border_farther)) || has(sums.open);
+    Bounds all;
+    if (spans_.are_paired()) {
+      look_at_rows((spans_.rows() + 1) / 2, all,
+                   [this](std::size_t pair, Bounds& sum) HWY_ATTR { look_at_pair(pair, sum); });
+    } else {
+      look_at_rows(spans_.rows(), all, [this](std::size_t row, Bounds& sum) HWY_ATTR { look_at_row(row, sum); });
+    }
+    if (is_supported(all)) return Answer::supported;
+    const bool is_nearer = has(hn::Le(all.inside_least, band_.near));
+    const bool is_farther = has(hn::Ge(all.inside_greatest, band_.far));
+    const bool any = is_nearer || is_farther || has(hn::Le(all.inside_least, all.inside_greatest));
+    remains.evidence = {.any = any, .not_farther = is_nearer, .not_nearer = is_farther};
+    const bool borders_matter = (!is_nearer && has(hn::Le(all.least, band_.near))) ||
+                                (!is_farther && has(hn::Ge(all.greatest, band_.far))) || has(all.open);
     if (!borders_matter) {
-      if (!inside.any) return Answer::unseen;
+      if (!any) return Answer::unseen;
       if (is_nearer) return is_farther ? Answer::ambiguous : Answer::occluded;
     }
     list_cells(!is_nearer, !is_farther, remains);
@@ -251,51 +98,105 @@ class ConeWindow {
  private:
   static bool has(FloatMask mask) { return !hn::AllFalse(FloatTag(), mask); }
 
-  struct Sums {
-    Sums() {
-      any = supports = open = hn::FirstN(FloatTag(), 0);
-      not_farther = not_nearer = border_nearer = border_farther = any;
+  /// Of all cells together: bounds of ranges, also of the cells inside alone, the least distance of those from the
+  /// point's range, and whether returns of a cell may lie in the band.
+  struct Bounds {
+    Bounds() {
+      least = inside_least = off = constant(std::numeric_limits<float>::infinity());
+      greatest = inside_greatest = hn::Neg(least);
+      open = hn::FirstN(FloatTag(), 0);
     }
-    FloatMask any, supports, open, not_farther, not_nearer, border_nearer, border_farther;
+    Floats least, greatest, inside_least, inside_greatest, off;
+    FloatMask open;
   };
 
+  bool is_supported(const Bounds& all) const { return has(hn::Lt(all.off, band_.within)); }
+
+  /// The bounds of one vector of cells; infinite where there is no cell or no return.
+  struct Cells {
+    Cells(Floats any_least, Floats any_greatest, FloatMask present, FloatMask in, const RangeBand& band)
+        : least(hn::IfThenElse(present, any_least, constant(std::numeric_limits<float>::infinity()))),
+          greatest(hn::IfThenElse(present, any_greatest, constant(-std::numeric_limits<float>::infinity()))),
+          inside(in),
+          open(hn::And(hn::Lt(least, band.far), hn::Gt(greatest, band.near))) {}
+    Floats least, greatest;
+    FloatMask inside;
+    FloatMask open;  ///< whose returns may lie in the band
+  };
+
+  /// The middle rows first, where most support is. No branch depends on a single row: it could not be predicted.
+  template <class Look>
+  HWY_INLINE void look_at_rows(std::size_t rows, Bounds& all, Look look) const {
+    const std::size_t begin = rows / 3, end = rows - rows / 3;
+    for (std::size_t row = begin; row < end; ++row) look(row, all);
+    if (is_supported(all)) return;
+    for (std::size_t row = 0; row < begin; ++row) look(row, all);
+    for (std::size_t row = end; row < rows; ++row) look(row, all);
+  }
+
+  HWY_INLINE void look_at_pair(std::size_t pair, Bounds& all) const {
+#if HWY_TARGET != HWY_SCALAR
+    const FloatTag d;
+    const hn::Half<FloatTag> dh;
+    const ConeSpans::PairedSpan span = spans_.paired_span(pair, lane_);
+    const float *least = index_.least_m.data(), *greatest = index_.greatest_m.data();
+    add(Cells(hn::Combine(d, hn::LoadU(dh, least + span.next_first), hn::LoadU(dh, least + span.first)),
+              hn::Combine(d, hn::LoadU(dh, greatest + span.next_first), hn::LoadU(dh, greatest + span.first)),
+              mask_of(span.present), mask_of(span.inside), band_),
+        all);
+#else
+    HWY_ASSERT(false && pair && &all);
+#endif
+  }
+
+  HWY_INLINE void look_at_row(std::size_t row, Bounds& all) const {
+    for_each_vector_of(row, [&](const Cells& cells, std::int32_t) HWY_ATTR { add(cells, all); });
+  }
+
+  /// Calls `visit(cells, k)` for the vectors of cells of a row; the first cell of each is the k-th of the row.
   template <class Visit>
   HWY_INLINE void for_each_vector_of(std::size_t row, Visit visit) const {
+    const FloatTag d;
     const ConeSpans::Span span = spans_.span(row, lane_);
-    for (std::int32_t k = 0; k < span.count; k += static_cast<std::int32_t>(hn::Lanes(FloatTag()))) {
-      visit(CellMasks(index_, band_, span, k), span, k);
+    const float *least = index_.least_m.data() + span.first, *greatest = index_.greatest_m.data() + span.first;
+    for (std::int32_t k = 0; k < span.count; k += static_cast<std::int32_t>(hn::Lanes(d))) {
+      visit(Cells(hn::LoadU(d, least + k), hn::LoadU(d, greatest + k),
+                  hn::FirstN(d, static_cast<std::size_t>(span.count - k)), mask_of(span.inside >> k), band_),
+            k);
     }
   }
 
-  HWY_INLINE void look_at_row(std::size_t row, Sums& sums) const {
-    for_each_vector_of(row, [&](const CellMasks& cells, const ConeSpans::Span&, std::int32_t) HWY_ATTR {
-      sums.supports = hn::Or(sums.supports, cells.supports);
-      sums.open = hn::Or(sums.open, cells.open);
-      sums.any = hn::Or(sums.any, cells.inside);
-      sums.not_farther = hn::Or(sums.not_farther, hn::And(cells.inside, cells.some_nearer));
-      sums.not_nearer = hn::Or(sums.not_nearer, hn::And(cells.inside, cells.some_farther));
-      sums.border_nearer = hn::Or(sums.border_nearer, hn::And(cells.border, cells.all_nearer));
-      sums.border_farther = hn::Or(sums.border_farther, hn::And(cells.border, cells.all_farther));
-    });
+  HWY_INLINE void add(const Cells& cells, Bounds& all) const {
+    const Floats off = hn::Min(hn::Abs(hn::Sub(cells.least, band_.rho)), hn::Abs(hn::Sub(cells.greatest, band_.rho)));
+    all.off = hn::IfThenElse(cells.inside, hn::Min(all.off, off), all.off);
+    all.inside_least = hn::IfThenElse(cells.inside, hn::Min(all.inside_least, cells.least), all.inside_least);
+    all.inside_greatest =
+        hn::IfThenElse(cells.inside, hn::Max(all.inside_greatest, cells.greatest), all.inside_greatest);
+    all.least = hn::Min(all.least, cells.least);
+    all.greatest = hn::Max(all.greatest, cells.greatest);
+    all.open = hn::Or(all.open, cells.open);
   }
 
   /// Lists the cells whose returns can make a difference, and finds whether cells inside lie to every side of the axis.
   HWY_NOINLINE void list_cells(bool with_nearer, bool with_farther, Remains& remains) const {
     bool west = false, east = false, south = false, north = false;
     for (std::size_t row = 0; row < spans_.rows(); ++row) {
-      for_each_vector_of(row, [&](const CellMasks& cells, const ConeSpans::Span& span, std::int32_t k) {
+      const std::int32_t first = spans_.span(row, lane_).first;
+      const ConeSpans::Sides sides = spans_.sides(row, lane_);
+      for_each_vector_of(row, [&](const Cells& cells, std::int32_t k) HWY_ATTR {
+        const FloatMask full = hn::Le(cells.least, cells.greatest), border = hn::AndNot(cells.inside, full);
         FloatMask listed = cells.open;
-        if (with_nearer) listed = hn::Or(listed, hn::And(cells.border, cells.all_nearer));
-        if (with_farther) listed = hn::Or(listed, hn::And(cells.border, cells.all_farther));
+        if (with_nearer) listed = hn::Or(listed, hn::And(border, hn::Le(cells.greatest, band_.near)));
+        if (with_farther) listed = hn::Or(listed, hn::And(border, hn::Ge(cells.least, band_.far)));
         for (std::uint32_t bits = bits_of(listed); bits != 0; bits &= bits - 1) {
-          remains.add(static_cast<std::uint32_t>(span.first + k + std::countr_zero(bits)));
+          remains.add(static_cast<std::uint32_t>(first + k + std::countr_zero(bits)));
         }
-        const std::uint32_t inside = bits_of(cells.inside);
+        const std::uint32_t inside = bits_of(hn::And(cells.inside, full));
         if (inside == 0) return;
-        west |= k + std::countr_zero(inside) < span.west_end;
-        east |= k + 31 - std::countl_zero(inside) >= span.east_first;
-        south |= spans_.side(row, lane_) < 0;
-        north |= spans_.side(row, lane_) > 0;
+        west |= k + std::countr_zero(inside) < sides.west_end;
+        east |= k + 31 - std::countl_zero(inside) >= sides.east_first;
+        south |= sides.is_south;
+        north |= sides.is_north;
       });
     }
     remains.is_surrounded = west && east && south && north;

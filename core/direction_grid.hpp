@@ -33,10 +33,8 @@ struct DirectionGridView {
   float rows_per_rad = 1.0f;
   std::int32_t rows = 0;
   float cell_rad = 1.0f;
-  const float* columns = nullptr;          ///< number of columns, one a row
-  const float* least_cosine = nullptr;     ///< least cosine of an elevation, one a row
-  const float* greatest_cosine = nullptr;  ///< greatest cosine of an elevation, one a row
-  const std::uint32_t* first = nullptr;    ///< first cell, one a row
+  const float* columns = nullptr;        ///< number of columns, one a row
+  const std::uint32_t* first = nullptr;  ///< first cell, one a row
 };
 
 /// A partition of a band of the sphere into cells of nearly equal size: rows of one height, each cut into as many
@@ -75,8 +73,6 @@ class DirectionGrid {
             .rows = static_cast<std::int32_t>(rows()),
             .cell_rad = static_cast<float>(cell_rad_),
             .columns = columns_.data(),
-            .least_cosine = least_cosine_.data(),
-            .greatest_cosine = greatest_cosine_.data(),
             .first = first_.data()};
   }
   double cell_rad() const { return cell_rad_; }

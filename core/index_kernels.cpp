@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/index_kernels.cpp"
@@ -51,9 +53,8 @@ class UsableTest {
  private:
   HWY_NOINLINE FloatMask decide(const Coordinates& p, FloatMask yes, FloatMask open) const {
     const FloatTag d;
-    HWY_ALIGN float x[HWY_MAX_BYTES / sizeof(float)], y[HWY_MAX_BYTES / sizeof(float)],
-        z[HWY_MAX_BYTES / sizeof(float)];
-    HWY_ALIGN float decided[HWY_MAX_BYTES / sizeof(float)], is_open[HWY_MAX_BYTES / sizeof(float)];
+    HWY_ALIGN float x[kMostLanes], y[HWY_MAX_BYTES / sizeof(float)], z[kMostLanes];
+    HWY_ALIGN float decided[kMostLanes], is_open[HWY_MAX_BYTES / sizeof(float)];
     hn::Store(p.x, d, x);
     hn::Store(p.y, d, y);
     hn::Store(p.z, d, z);
@@ -138,6 +139,54 @@ void assign_cells_simd(const PointPlanes& points, const UsableRange& usable, con
   });
 }
 
+/// Ranges of `count` returns in a row.
+void find_ranges(const Return* returns, std::size_t count, float* ranges_m) {
+  const FloatTag d;
+  const auto* from = reinterpret_cast<const float*>(returns);
+  std::size_t i = 0;
+  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
+    Coordinates p;
+    hn::LoadInterleaved3(d, from + 3 * i, p.x, p.y, p.z);
+    hn::StoreU(range_of(p), d, ranges_m + i);
+  }
+  for (; i < count; ++i) {
+    const auto& [x, y, z] = returns[i];
+    ranges_m[i] = std::sqrt(x * x + y * y + z * z);
+  }
+}
+
+void bound_ranges_simd(const Return* returns, const std::uint32_t* first, std::size_t cells, float* least_m,
+                       float* greatest_m) {
+  const FloatTag d;
+  const IntTag di;
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr std::size_t kBlock = 1024;
+  std::vector<float> ranges_m;
+  for (std::size_t begin = 0; begin < cells; begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, cells);
+    const std::uint32_t offset = first[begin];
+    if (ranges_m.size() < first[end] - offset) ranges_m.resize(first[end] - offset);
+    find_ranges(returns + offset, first[end] - offset, ranges_m.data());
+    for (std::size_t cell = begin; cell < end; cell += hn::Lanes(d)) {
+      const auto* places = reinterpret_cast<const std::int32_t*>(first) + cell;
+      const Ints behind = hn::Sub(hn::LoadU(di, places + 1), hn::Set(di, static_cast<std::int32_t>(offset)));
+      Ints i = hn::Sub(hn::LoadU(di, places), hn::Set(di, static_cast<std::int32_t>(offset)));
+      Floats least = constant(kInfinity), greatest = constant(-kInfinity);
+      const std::size_t count = std::min(hn::Lanes(d), end - cell);
+      for (;; i = hn::Add(i, hn::Set(di, 1))) {
+        const auto present = hn::And(hn::FirstN(di, count), hn::Lt(i, behind));
+        if (hn::AllFalse(di, present)) break;
+        const Floats range = hn::GatherIndex(d, ranges_m.data(), hn::IfThenElseZero(present, i));
+        const FloatMask has = hn::RebindMask(d, present);
+        least = hn::IfThenElse(has, hn::Min(least, range), least);
+        greatest = hn::IfThenElse(has, hn::Max(greatest, range), greatest);
+      }
+      store(d, least, least_m + cell, count);
+      store(d, greatest, greatest_m + cell, count);
+    }
+  }
+}
+
 void to_spherical_simd(const PointPlanes& points, float* ranges_m, float* azimuths_rad, float* elevations_rad) {
   const FloatTag d;
   for_each_vector(points, [&](std::size_t i, std::size_t count, const Coordinates& p) {
@@ -157,6 +206,7 @@ namespace raywatch {
 HWY_EXPORT(find_usable_simd);
 HWY_EXPORT(find_elevation_band_simd);
 HWY_EXPORT(assign_cells_simd);
+HWY_EXPORT(bound_ranges_simd);
 HWY_EXPORT(to_spherical_simd);
 
 void find_usable(const PointPlanes& points, const UsableRange& usable, std::uint8_t* valid) {
@@ -170,6 +220,11 @@ ElevationBand find_elevation_band(const PointPlanes& points, const UsableRange& 
 void assign_cells(const PointPlanes& points, const UsableRange& usable, const DirectionGridView& grid,
                   std::uint32_t* cells) {
   HWY_DYNAMIC_DISPATCH(assign_cells_simd)(points, usable, grid, cells);
+}
+
+void bound_ranges(const Return* returns, const std::uint32_t* first, std::size_t cells, float* least_m,
+                  float* greatest_m) {
+  HWY_DYNAMIC_DISPATCH(bound_ranges_simd)(returns, first, cells, least_m, greatest_m);
 }
 
 void to_spherical(const PointPlanes& points, float* ranges_m, float* azimuths_rad, float* elevations_rad) {

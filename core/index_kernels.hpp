@@ -6,6 +6,7 @@
 
 #include "core/direction_grid.hpp"
 #include "core/point_cloud.hpp"
+#include "core/prior_index_impl.hpp"
 
 namespace raywatch {
 
@@ -40,6 +41,11 @@ inline constexpr std::uint32_t kNoCell = std::numeric_limits<std::uint32_t>::max
 /// The cell of each point; `kNoCell` where it is not usable. The grid must have a row.
 void assign_cells(const PointPlanes& points, const UsableRange& usable, const DirectionGridView& grid,
                   std::uint32_t* cells);
+
+/// The least and the greatest range of each cell's returns, which stand from `first[cell]` to `first[cell + 1]`;
+/// infinity and -infinity where there are none. `first` may be loaded `RawArray::kPadding` past its end.
+void bound_ranges(const Return* returns, const std::uint32_t* first, std::size_t cells, float* least_m,
+                  float* greatest_m);
 
 /// Ranges, azimuths and elevations: the bare transform to spherical coordinates, against which all else is measured.
 void to_spherical(const PointPlanes& points, float* ranges_m, float* azimuths_rad, float* elevations_rad);

@@ -2,12 +2,15 @@
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "core/index_kernels.hpp"
@@ -22,6 +25,21 @@ namespace {
 constexpr double kReturnsPerCell = 1.02;
 constexpr double kLeastCell_rad = 2e-5;
 constexpr double kMostCell_rad = 0.05;
+
+/// As `find_elevation_band` of all points.
+ElevationBand elevation_band_of(const PointPlanes& points, const UsableRange& usable) {
+  const auto merge = [](const ElevationBand& a, const ElevationBand& b) {
+    if (a.count == 0 || b.count == 0) return a.count == 0 ? b : a;
+    return ElevationBand{a.count + b.count, std::min(a.low_rad, b.low_rad), std::max(a.high_rad, b.high_rad)};
+  };
+  constexpr std::size_t kGrain = 65536;
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, points.size, kGrain), ElevationBand{},
+      [&](const tbb::blocked_range<std::size_t>& block, const ElevationBand& band) {
+        return merge(band, find_elevation_band(points.subspan(block.begin(), block.size()), usable));
+      },
+      merge);
+}
 
 /// Cells that hold `kReturnsPerCell` returns on the average of the band that the scan covers.
 DirectionGrid grid_for(const ElevationBand& band) {
@@ -57,8 +75,8 @@ class CellSort {
   }
 
   void count(std::size_t part) {
-    std::vector<std::uint32_t>& counts = counts_[part];
-    counts.assign(index_.grid.cells(), 0);
+    RawArray<std::uint32_t> counts(index_.grid.cells());
+    std::fill(counts.begin(), counts.end(), 0);
     constexpr std::size_t kBlock = 2048;
     for (std::size_t begin = begin_[part]; begin < begin_[part + 1]; begin += kBlock) {
       const std::size_t size = std::min(kBlock, begin_[part + 1] - begin);
@@ -67,24 +85,40 @@ class CellSort {
         if (cells_[i] != kNoCell) ++counts[cells_[i]];
       }
     }
+    counts_[part] = std::move(counts);
   }
 
-  /// Turns the counts of the parts into the places of their first returns.
+  /// Turns the counts of the parts into the places of their first returns: block by block of cells, once it is known
+  /// how many returns stand before each block.
   void number() {
-    std::uint32_t next = 0;
-    for (std::size_t cell = 0; cell < index_.grid.cells(); ++cell) {
-      index_.first[cell] = next;
-      for (std::vector<std::uint32_t>& counts : counts_) {
-        const std::uint32_t count = counts[cell];
-        counts[cell] = next;
-        next += count;
+    const std::size_t cells = index_.grid.cells(), blocks = (cells + kCellGrain - 1) / kCellGrain;
+    std::vector<std::uint32_t> next(blocks + 1, 0);
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      const std::size_t begin = block * kCellGrain, end = std::min(begin + kCellGrain, cells);
+      for (const RawArray<std::uint32_t>& counts : counts_) {
+        next[block + 1] = std::accumulate(counts.begin() + begin, counts.begin() + end, next[block + 1]);
       }
+    });
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      const std::size_t begin = block * kCellGrain, end = std::min(begin + kCellGrain, cells);
+      number_cells(begin, end, next[block]);
+    });
+    index_.first[cells] = next[blocks];
+  }
+
+  void number_cells(std::size_t begin, std::size_t end, std::uint32_t next) {
+    std::vector<std::uint32_t*> parts;
+    for (RawArray<std::uint32_t>& counts : counts_) parts.push_back(counts.data());
+    std::uint32_t* const first = index_.first.data();
+    for (std::size_t cell = begin; cell < end; ++cell) {
+      first[cell] = next;
+      for (std::uint32_t* const counts : parts) next += std::exchange(counts[cell], next);
     }
-    index_.first[index_.grid.cells()] = next;
   }
 
   void place(std::size_t part) {
-    std::vector<std::uint32_t>& next = counts_[part];
+    RawArray<std::uint32_t>& next = counts_[part];
     for (std::size_t i = begin_[part]; i < begin_[part + 1]; ++i) {
       if (cells_[i] == kNoCell) continue;
       index_.returns[next[cells_[i]]++] = {points_.x_m[i], points_.y_m[i], points_.z_m[i]};
@@ -92,29 +126,21 @@ class CellSort {
   }
 
   void bound_ranges() {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    const tbb::blocked_range<std::size_t> all(0, index_.grid.cells(), 16384);
+    const tbb::blocked_range<std::size_t> all(0, index_.grid.cells(), kCellGrain);
     tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& cells) {
-      for (std::size_t cell = cells.begin(); cell < cells.end(); ++cell) {
-        float least_m = kInfinity, greatest_m = -kInfinity;
-        for (std::uint32_t i = index_.first[cell]; i < index_.first[cell + 1]; ++i) {
-          const auto& [x, y, z] = index_.returns[i];
-          const float range_m = std::sqrt(x * x + y * y + z * z);
-          least_m = std::min(least_m, range_m);
-          greatest_m = std::max(greatest_m, range_m);
-        }
-        index_.least_m[cell] = least_m;
-        index_.greatest_m[cell] = greatest_m;
-      }
+      raywatch::bound_ranges(index_.returns.data(), index_.first.data() + cells.begin(), cells.size(),
+                             index_.least_m.data() + cells.begin(), index_.greatest_m.data() + cells.begin());
     });
   }
+
+  static constexpr std::size_t kCellGrain = 16384;
 
   PointPlanes points_;
   const UsableRange& usable_;
   PriorIndex::Impl& index_;
   RawArray<std::uint32_t> cells_;
-  std::vector<std::size_t> begin_;                  ///< first point of each part, and the number of points
-  std::vector<std::vector<std::uint32_t>> counts_;  ///< of each part, one a cell
+  std::vector<std::size_t> begin_;               ///< first point of each part, and the number of points
+  std::vector<RawArray<std::uint32_t>> counts_;  ///< of each part, one a cell
 };
 
 }  // namespace
@@ -122,7 +148,7 @@ class CellSort {
 PriorIndex PriorIndex::build(const PointCloud& points, const UsableRange& usable) {
   auto impl = std::make_unique<Impl>();
   impl->usable = usable;
-  const ElevationBand band = find_elevation_band(planes_of(points), usable);
+  const ElevationBand band = elevation_band_of(planes_of(points), usable);
   if (band.count > 0) {
     impl->grid = grid_for(band);
     impl->returns = RawArray<Return>(band.count);

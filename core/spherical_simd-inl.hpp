@@ -22,6 +22,7 @@ using IntTag = hn::RebindToSigned<FloatTag>;
 using Floats = hn::Vec<FloatTag>;
 using Ints = hn::Vec<IntTag>;
 using FloatMask = hn::Mask<FloatTag>;
+constexpr std::size_t kMostLanes = HWY_MAX_BYTES / sizeof(float);
 
 /// Coordinates of one vector of points.
 struct Coordinates {
@@ -87,7 +88,7 @@ inline CellLookup cells_of(const DirectionGridView& grid, Floats azimuth, Floats
 inline Coordinates load(const float* x, const float* y, const float* z, std::size_t count) {
   const FloatTag d;
   if (count >= hn::Lanes(d)) return {hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z)};
-  HWY_ALIGN float rest[3][HWY_MAX_BYTES / sizeof(float)] = {};
+  HWY_ALIGN float rest[3][kMostLanes] = {};
   for (std::size_t i = 0; i < count; ++i) {
     rest[0][i] = x[i];
     rest[1][i] = y[i];

@@ -1,0 +1,103 @@
+// Vector code, compiled once for each instruction set: see spherical_simd-inl.hpp.
+#if defined(RAYWATCH_CONE_RETURNS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAYWATCH_CONE_RETURNS_INL
+#undef RAYWATCH_CONE_RETURNS_INL
+#else
+#define RAYWATCH_CONE_RETURNS_INL
+#endif
+
+#include <vector>
+
+#include "core/cone_spans-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace raywatch::HWY_NAMESPACE {
+
+/// The returns in the cells that the cones of one vector of points touch: for each point (lane) some stretches of
+/// neighbouring returns, one a row or, at the seam, two.
+class ConeReturns {
+ public:
+  explicit ConeReturns(const PreparedPrior& prior) : prior_(prior), spans_(prior) {}
+
+  /// Finds the returns around the first `count` lanes. @param cosine of the elevation
+  void find(Floats azimuth, Floats elevation, Floats cosine, std::size_t count) {
+    stretches_ = 0;
+    spans_.find(azimuth, elevation, cosine, count);
+    const IntTag di;
+    const auto* first = reinterpret_cast<const std::int32_t*>(prior_.index.first.data());
+    const Ints fits = hn::VecFromMask(di, hn::RebindMask(di, spans_.fits()));
+    for (std::size_t row = 0; row < spans_.rows(); ++row) {
+      const Ints cell = hn::And(spans_.first(row), fits);
+      grow(row + 1);
+      hn::StoreU(hn::GatherIndex(di, first, cell), di, &begin_[row * kMostLanes]);
+      hn::StoreU(hn::GatherIndex(di, first, hn::Add(cell, hn::And(spans_.count(row), fits))), di,
+                 &end_[row * kMostLanes]);
+    }
+    FloatTag d;
+    HWY_ALIGN float azimuths[kMostLanes], elevations[kMostLanes];
+    hn::Store(azimuth, d, azimuths);
+    hn::Store(elevation, d, elevations);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      if (!spans_.fits(lane)) find_one({azimuths[lane], elevations[lane]}, lane);
+    }
+  }
+
+  /// Calls `visit(return, lanes that have one)`: the number of one return a lane, until every lane has had all of its
+  /// own.
+  template <class Visit>
+  HWY_INLINE void for_each(Visit visit) const {
+    const IntTag di;
+    for (std::size_t k = 0; k < stretches_; ++k) {
+      const Ints end = hn::LoadU(di, &end_[k * kMostLanes]);
+      for (Ints i = hn::LoadU(di, &begin_[k * kMostLanes]);; i = hn::Add(i, hn::Set(di, 1))) {
+        const auto present = hn::Lt(i, end);
+        if (hn::AllFalse(di, present)) break;
+        visit(i, hn::RebindMask(FloatTag(), present));
+      }
+    }
+  }
+
+ private:
+  void grow(std::size_t stretches) {
+    if (stretches <= stretches_) return;
+    stretches_ = stretches;
+    if (begin_.size() < stretches * kMostLanes) {
+      begin_.resize(stretches * kMostLanes);
+      end_.resize(stretches * kMostLanes);
+    }
+    std::fill_n(&begin_[(stretches - 1) * kMostLanes], kMostLanes, 0);
+    std::fill_n(&end_[(stretches - 1) * kMostLanes], kMostLanes, 0);
+  }
+
+  /// The same for one point whose cone is large, or touches a pole or the seam.
+  HWY_NOINLINE void find_one(const Direction& axis, std::size_t lane) {
+    std::size_t stretch = 0;
+    const auto add = [&](std::uint32_t first_cell, std::int64_t first, std::int64_t end) {
+      if (first >= end) return;
+      grow(stretch + 1);
+      const auto& index = prior_.index;
+      begin_[stretch * kMostLanes + lane] = static_cast<std::int32_t>(index.first[first_cell + first]);
+      end_[stretch * kMostLanes + lane] = static_cast<std::int32_t>(index.first[first_cell + end]);
+      ++stretch;
+    };
+    const DirectionGrid& grid = prior_.index.grid;
+    prior_.cone.for_each_row(grid, axis, [&](const ConeRow& cover) {
+      const auto columns = static_cast<std::int64_t>(grid.columns(cover.row));
+      const std::uint32_t first_cell = grid.first_cell(cover.row);
+      add(first_cell, cover.first + columns, std::min(columns, cover.last + 1 + columns));
+      add(first_cell, std::max<std::int64_t>(cover.first, 0), std::min(columns, cover.last + 1));
+      add(first_cell, 0, cover.last + 1 - columns);
+      return true;
+    });
+  }
+
+  const PreparedPrior& prior_;
+  ConeSpans spans_;
+  std::size_t stretches_ = 0;
+  std::vector<std::int32_t> begin_, end_;  ///< first return of each stretch, and the one behind it; by stretch, lane
+};
+
+}  // namespace raywatch::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
