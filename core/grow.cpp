@@ -7,8 +7,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "core/cone.hpp"
-#include "core/prior_index_impl.hpp"
+#include "core/returns_near.hpp"
 
 namespace raywatch {
 namespace {
@@ -81,25 +80,29 @@ class Growth {
     return result;
   }
 
+  /// How far the next point may be: as far as points of one thing may be apart, but where shots lie densely no farther
+  /// than a few of them, as all those between would be looked at.
+  float step_m(const Eigen::Vector3f& place_m) const {
+    constexpr double kMostShots = 6.0;
+    const double dense_m = kMostShots * spacing_of(view_).maxCoeff() * place_m.norm();
+    return std::min(reach_m(view_, place_m, parameters_), static_cast<float>(dense_m));
+  }
+
   std::vector<Neighbour> neighbours(const Joined& from) const {
     const PriorIndex::Impl& index = view_.index.impl();
     const Eigen::Vector3f place_m = view_.points[from.index], seed_m = view_.points[from.seed];
-    const float reach = reach_m(view_, place_m, parameters_);
+    const float reach = step_m(place_m);
     const double ratio = reach / place_m.norm();
     const float farthest_m = std::max(static_cast<float>(parameters_.growth_distance_m), reach);
     std::vector<Neighbour> result;
-    const Direction axis = direction_of(place_m.x(), place_m.y(), place_m.z());
-    Cone(ratio < 1.0 ? std::asin(ratio) : std::numbers::pi / 2)
-        .for_each_cell(index.grid, axis, [&](std::uint32_t cell, bool) {
-          for (std::uint32_t i = index.first[cell]; i < index.first[cell + 1]; ++i) {
-            if (visited_[sources_[i]]) continue;
-            const Eigen::Vector3f p = point_of(index.returns[i]).cast<float>();
-            if ((p - place_m).squaredNorm() >= reach * reach) continue;
-            const float distance_m = (p - seed_m).norm();
-            if (distance_m <= farthest_m) result.push_back({{sources_[i], from.seed, from.point_class}, distance_m});
-          }
-          return true;
-        });
+    for_each_return_near(index, place_m.cast<double>(), ratio < 1.0 ? std::asin(ratio) : std::numbers::pi / 2,
+                         [&](std::uint32_t i) {
+                           const Eigen::Vector3f p = point_of(index.returns[i]).cast<float>();
+                           if ((p - place_m).squaredNorm() >= reach * reach || visited_[sources_[i]]) return;
+                           const float distance_m = (p - seed_m).norm();
+                           if (distance_m <= farthest_m)
+                             result.push_back({{sources_[i], from.seed, from.point_class}, distance_m});
+                         });
     return result;
   }
 
