@@ -10,7 +10,7 @@ namespace raywatch {
 namespace {
 
 /// Points of a cluster that are looked at for means and medians.
-constexpr std::size_t kMostLookedAt = 200;
+constexpr std::size_t kMostLookedAt = 100;
 
 /// Some points of a cluster, evenly spread over it, in its own frame and that of the scan that is asked.
 struct Sample {
@@ -68,7 +68,7 @@ struct RayCount {
 /// Counts the rays through a cluster. Its members are sorted by direction, so that the part of a large cluster that is
 /// looked at is a band of it, without holes.
 RayCount count_rays(const PriorIndex::Impl& cluster, const PriorIndex::Impl& rays, double angle_rad, double margin_m) {
-  constexpr std::size_t kMostMembers = 2000;
+  constexpr std::size_t kMostMembers = 500;
   const double cosine = std::cos(angle_rad);
   RayCount count{.members = std::min(kMostMembers, cluster.returns.size())};
   std::vector<std::uint32_t> near;
@@ -126,13 +126,19 @@ void count_penetrated(const ScanView& view, const ScanView& asked, const Sample&
   }
 }
 
-double clearance_m(const ScanView& asked, const Sample& sample) {
-  constexpr double kGreatest_m = 1.0;
-  std::vector<double> distances_m;
-  for (const Eigen::Vector3d& point_m : sample.asked_m) {
-    const bool far = point_m.norm() > kGreatest_m;
-    distances_m.push_back(far ? nearest_return_m(asked.index.impl(), point_m, 0.0, kGreatest_m) : kGreatest_m);
+/// The distance from a point to the nearest return of `asked`, at most 1 m; in growing balls, as most are near.
+double clearance_m(const ScanView& asked, const Eigen::Vector3d& point_m) {
+  constexpr double kLeast_m = 0.125, kGreatest_m = 1.0;
+  for (double farthest_m = kLeast_m; farthest_m <= kGreatest_m && farthest_m < point_m.norm(); farthest_m *= 2.0) {
+    const double nearest_m = nearest_return_m(asked.index.impl(), point_m, 0.0, farthest_m);
+    if (nearest_m < farthest_m) return nearest_m;
   }
+  return kGreatest_m;
+}
+
+double median_clearance_m(const ScanView& asked, const Sample& sample) {
+  std::vector<double> distances_m;
+  for (const Eigen::Vector3d& point_m : sample.asked_m) distances_m.push_back(clearance_m(asked, point_m));
   const auto median = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
   std::nth_element(distances_m.begin(), median, distances_m.end());
   return *median;
@@ -144,7 +150,7 @@ ClusterVotes votes_of(const ScanView& view, std::span<const std::uint32_t> membe
                       const CompareParameters& parameters) {
   const Sample sample = sample_of(view, members, asked);
   ClusterVotes votes{.rays_through = rays_through(view, members, asked, sample, parameters.range_m),
-                     .clearance_m = clearance_m(asked, sample)};
+                     .clearance_m = median_clearance_m(asked, sample)};
   count_penetrated(view, asked, sample, parameters.range_m, votes);
   const auto count = static_cast<double>(sample.asked_m.size());
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();
