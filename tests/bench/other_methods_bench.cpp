@@ -5,6 +5,7 @@
 #include <pcl/octree/octree_pointcloud_changedetector.h>
 #include <pcl/point_types.h>
 
+#include "core/index_kernels.hpp"
 #include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/plain_method.hpp"
 
@@ -30,9 +31,10 @@ void plain_method(benchmark::State& state, SceneSize size) {
 void raywatch_method(benchmark::State& state, SceneSize size) {
   const BenchScene& s = scene(size);
   const Pose prior_from_scan = s.other_pose.world_from_sensor.inverse() * s.scan.world_from_sensor;
-  const std::vector<std::uint8_t> valid(s.scan.points.size(), 1);
+  std::vector<std::uint8_t> valid(s.scan.points.size());
   std::vector<Answer> answers(valid.size());
   for (auto _ : state) {
+    find_usable(planes_of(s.scan.points), {}, valid.data());
     const PriorIndex index = PriorIndex::build(s.other_pose.points, {});
     ask(index, s.scan.points, valid, prior_from_scan, s.thresholds, answers);
     benchmark::ClobberMemory();
