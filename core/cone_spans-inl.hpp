@@ -20,7 +20,7 @@ namespace raywatch::HWY_NAMESPACE {
 /// touched and inside, for cones that are small against the sphere and away from its poles and the seam.
 class ConeSpans {
  public:
-  static constexpr std::size_t kMostRows = 24;
+  static constexpr std::size_t kMostRows = 32;
   static constexpr std::int32_t kMostColumns = 31;
 
   explicit ConeSpans(const PreparedPrior& prior)

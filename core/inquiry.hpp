@@ -10,7 +10,7 @@ namespace raywatch {
 
 /// What the bounds of cells have told about a point, and the cells whose returns must be looked at to tell more.
 struct Remains {
-  static constexpr std::size_t kMostCells = 24;
+  static constexpr std::size_t kMostCells = 64;
   bool is_complete = false;    ///< if not, everything must be asked anew
   bool is_surrounded = false;  ///< if not, the point may still be surrounded by returns in the cone
   Evidence evidence;

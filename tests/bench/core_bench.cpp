@@ -63,6 +63,24 @@ void ask_prior(benchmark::State& state, SceneSize size, bool same_pose) {
   }
 }
 
+/// How the cost of asking grows with T_a, given as a multiple of the spacing of the shots (x 10).
+void ask_at_angle(benchmark::State& state, SceneSize size, bool same_pose) {
+  const BenchScene& s = scene(size);
+  const BenchScan& prior = same_pose ? s.same_pose : s.other_pose;
+  const Pose prior_from_scan = prior.world_from_sensor.inverse() * s.scan.world_from_sensor;
+  const double spacing_rad = prior.sensor.angular_resolution_rad->maxCoeff();
+  const Thresholds thresholds{0.1 * static_cast<double>(state.range(0)) * spacing_rad, s.thresholds.range_m};
+  std::vector<std::uint8_t> valid(s.scan.points.size());
+  find_usable(planes_of(s.scan.points), {}, valid.data());
+  std::vector<Answer> answers(valid.size());
+  tbb::task_arena arena(1);
+  for (auto _ : state) {
+    arena.execute([&] { ask(prior.index, s.scan.points, valid, prior_from_scan, thresholds, answers); });
+    benchmark::ClobberMemory();
+  }
+  set_points(state, answers.size());
+}
+
 void detect_both_ways(benchmark::State& state, SceneSize size, Grouping grouping, bool same_pose) {
   const BenchScene& s = scene(size);
   CompareParameters parameters =
@@ -100,6 +118,11 @@ void register_all() {
     add("ask_same_pose", [s](benchmark::State& state) { ask_prior(state, s, true); });
     add("ask_other_pose", [s](benchmark::State& state) { ask_prior(state, s, false); });
     for (const auto& [pose, same] : {std::pair{"same_pose", true}, std::pair{"other_pose", false}}) {
+      const auto ask_angle = [s, same = same](benchmark::State& state) { ask_at_angle(state, s, same); };
+      auto* angles = benchmark::RegisterBenchmark(
+          name((std::string("ask_tenths_of_spacing_") + pose).c_str(), where).c_str(), ask_angle);
+      angles->Unit(benchmark::kMillisecond)->UseRealTime();
+      for (const int tenths : {16, 30, 50, 80}) angles->Arg(tenths);
       for (const auto& [grouping_name, grouping] :
            {std::pair{"union", Grouping::union_}, std::pair{"consensus", Grouping::consensus}}) {
         add((std::string("detect_") + grouping_name + "_" + pose).c_str(),
