@@ -91,8 +91,6 @@ void miss(Track& track, Time at) {
   track.state = TrackState::gone;
 }
 
-void lose_sight(Track& track) { ++track.unseen; }
-
 bool is_followed(const Track& track) {
   const bool just_ended = track.state == TrackState::gone && (track.recent & 0b11) == 0b10;
   return track.state == TrackState::open || just_ended;
@@ -129,6 +127,23 @@ std::vector<std::optional<std::size_t>> associate(std::span<const Track> tracks,
     if (gap_m(held_m[pair.track], changes[pair.change].bounds_m) <= kFragmentGap_m) track_of[pair.change] = pair.track;
   }
   return track_of;
+}
+
+std::vector<std::vector<std::size_t>> group_fragments(std::span<const Change> changes,
+                                                      std::span<const std::size_t> places) {
+  std::vector<std::size_t> rest(places.begin(), places.end());
+  std::stable_sort(rest.begin(), rest.end(),
+                   [&](std::size_t a, std::size_t b) { return changes[a].points > changes[b].points; });
+  std::vector<std::vector<std::size_t>> groups;
+  while (!rest.empty()) {
+    const Change& largest = changes[rest.front()];
+    const auto others = std::stable_partition(rest.begin(), rest.end(), [&](std::size_t place) {
+      return changes[place].kind == largest.kind && gap_m(changes[place].bounds_m, largest.bounds_m) <= kFragmentGap_m;
+    });
+    groups.emplace_back(rest.begin(), others);
+    rest.erase(rest.begin(), others);
+  }
+  return groups;
 }
 
 bool are_alike(const OrientedBox& a, const OrientedBox& b) {

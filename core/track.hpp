@@ -43,7 +43,7 @@ struct Track {
   Time first_seen_at, last_seen_at;
   Time last_told_at;  ///< seen or absent
   std::optional<Time> ended_at;
-  std::uint64_t seen = 0, absent = 0, unseen = 0;
+  std::uint64_t seen = 0, absent = 0;
   std::uint64_t recent = 0;      ///< of the last sights that told something, bit 0 the newest; 1: seen
   std::uint32_t remembered = 0;  ///< how many bits of `recent` count
 };
@@ -51,12 +51,11 @@ struct Track {
 /// A new track of a change that was just seen.
 Track begin_track(const Change& change, std::vector<Eigen::Vector3f> sample_m, Time at);
 
-/// @{ What a scan of the time `at` adds to a track. Only an open track, or one that was absent in the scan before, may
-/// be given (see `is_followed`).
+/// @{ What a scan of the time `at` adds to a track; one that could not see its place adds nothing. Only an open track,
+/// or one that was absent in the scan before, may be given (see `is_followed`).
 void see(Track& track, const Change& change, std::vector<Eigen::Vector3f> sample_m, Time at);
 void see_still(Track& track, Time at);  ///< no change was found there, yet the place is as it was last seen
 void miss(Track& track, Time at);       ///< absent: the track ends, unless the next telling scan sees it again
-void lose_sight(Track& track);
 /// @}
 
 /// Whether later scans may still add to it: it is open, or it ended with the last scan that told something.
@@ -76,6 +75,11 @@ Sight sight_of(ChangeKind kind, std::span<const Answer> answers);
 /// what its neighbour's track already has is a fragment of the same. Discrepancies belong to none.
 /// The order of either list does not matter, but for exact ties.
 std::vector<std::optional<std::size_t>> associate(std::span<const Track> tracks, std::span<const Change> changes);
+
+/// What is left of `changes` at `places`, put together into new tracks: what touches the largest of a group is a
+/// fragment of the same. The largest comes first in its group, and the groups are in the order of their largest.
+std::vector<std::vector<std::size_t>> group_fragments(std::span<const Change> changes,
+                                                      std::span<const std::size_t> places);
 
 /// Whether two boxes may be of one object that was moved: each of the three sides, by length, agrees.
 bool are_alike(const OrientedBox& a, const OrientedBox& b);

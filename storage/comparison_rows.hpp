@@ -15,6 +15,8 @@ void set_comparison_state(Transaction& transaction, ComparisonId id, ComparisonS
 /// one waits, else failed.
 void update_scan_state(Transaction& transaction, ScanId scan);
 
-void insert_changes(Transaction& transaction, const ComparisonRecord& comparison, const std::vector<Change>& changes);
+/// @returns their ids, in their order.
+std::vector<ChangeId> insert_changes(Transaction& transaction, const ComparisonRecord& comparison,
+                                     const std::vector<Change>& changes);
 
 }  // namespace raywatch

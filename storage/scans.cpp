@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "storage/baselines.hpp"
 #include "storage/columns.hpp"
 #include "storage/scan_rows.hpp"
 #include "storage/sensors.hpp"
@@ -91,6 +92,7 @@ void require_deletable(const Snapshot& snapshot, const ScanRecord& scan) {
   const auto user = database.find<std::int64_t>(
       "SELECT comparison FROM comparison_priors INDEXED BY comparison_priors_by_scan WHERE scan = ? LIMIT 1", scan.id);
   if (user) throw Conflict(name + " is a prior of comparison " + std::to_string(*user));
+  if (is_in_baseline(snapshot, scan.id)) throw Conflict(name + " is part of the baseline of its site");
 }
 
 void delete_comparison(Transaction& transaction, ComparisonId id) {

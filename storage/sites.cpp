@@ -55,6 +55,19 @@ bool has_scans(const Snapshot& snapshot, SiteId id) {
   return database_of(snapshot).find<int>("SELECT 1 FROM scans WHERE site = ? LIMIT 1", id).has_value();
 }
 
+/// Without sensors nothing of it can be asked any more but by its id.
+void delete_what_was_watched(Database& database, SiteId id) {
+  for (const char* part : {"sight_runs WHERE track IN (SELECT id FROM tracks WHERE site = ?)",
+                           "zone_coverage WHERE zone IN (SELECT id FROM zones WHERE site = ?)",
+                           "alert_steps WHERE alert IN (SELECT id FROM alerts WHERE site = ?)"}) {
+    database.run(std::string("DELETE FROM ") + part, id);
+  }
+  for (const char* table :
+       {"tracks", "watched_scans", "alerts", "silences", "rules", "zones", "baseline_entries", "baselines"}) {
+    database.run(std::string("DELETE FROM ") + table + " WHERE site = ?", id);
+  }
+}
+
 }  // namespace
 
 Site insert_site(Transaction& transaction, const Site& site, Time now) {
@@ -107,6 +120,7 @@ void delete_site(Transaction& transaction, SiteId id) {
   if (database_of(transaction).find<int>("SELECT 1 FROM sensors WHERE site = ? LIMIT 1", id)) {
     throw Conflict("site \"" + site.name + "\" still has sensors");
   }
+  delete_what_was_watched(database_of(transaction), id);
   database_of(transaction).run("DELETE FROM sites WHERE id = ?", id);
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "core/sample_changes.hpp"
 #include "tests/core/watch_scene.hpp"
 
 namespace raywatch {
@@ -63,6 +64,22 @@ TEST_CASE("outside of its region an accepted scan says nothing") {
   const auto again = changes(look_at_wall(true, kStart + 2h, 3.0), baseline);
   REQUIRE(again.size() == 1);
   CHECK(again.front().kind == ChangeKind::added);
+}
+
+TEST_CASE("the sample of a change is some of its points, evenly chosen") {
+  const WatchedScan before = look_at_wall(true, kStart), now = look_at_wall(false, kStart + 1h);
+  for (const auto& [scan, prior] : {std::pair(&now, &before), std::pair(&before, &now)}) {
+    const std::vector<ScanView> priors{prior->view()};
+    const Comparison comparison = compare(scan->view(), priors, watch_parameters());
+    REQUIRE(comparison.changes.size() == 1);
+    for (const std::size_t most : {7u, 64u, 100'000u}) {
+      const auto samples = sample_changes(scan->view(), priors, comparison, most);
+      REQUIRE(samples.size() == 1);
+      CHECK(samples.front().size() == std::min(most, comparison.changes.front().points));
+      const Eigen::AlignedBox3d& bounds_m = comparison.changes.front().bounds_m;
+      for (const Eigen::Vector3f& p : samples.front()) CHECK(bounds_m.exteriorDistance(p.cast<double>()) < 1e-5);
+    }
+  }
 }
 
 TEST_CASE("where regions overlap the later one speaks") {
