@@ -12,13 +12,13 @@
 #include "server/comparison_runner.hpp"
 #include "server/index_cache.hpp"
 #include "server/ingest_service.hpp"
-#include "server/job_signal.hpp"
 #include "server/machine.hpp"
 #include "server/progress_board.hpp"
 #include "server/reference_resolver.hpp"
 #include "server/workers.hpp"
 #include "storage/comparisons.hpp"
 #include "storage/payloads.hpp"
+#include "storage/signal.hpp"
 #include "storage/sites.hpp"
 #include "storage/sweep.hpp"
 
@@ -58,7 +58,8 @@ struct Daemon::Impl {
         ingest(store,
                {.queue_limit = config.queue_limit, .future_tolerance = config.future_tolerance, .file_limits = {}},
                now),
-        runner(store, cache, progress, {.previous_limit = config.previous_limit, .choice = config.choice}, now),
+        runner(store, cache, progress,
+               {.previous_limit = config.previous_limit, .choice = config.choice, .watch = config.watch}, now),
         requeued(recover(store)),
         workers(store, runner, signal,
                 {.workers = config.workers > 0 ? config.workers : cores(),
@@ -85,7 +86,7 @@ struct Daemon::Impl {
   Store store;
   IndexCache cache;
   ProgressBoard progress;
-  JobSignal signal;
+  Signal signal;
   IngestService ingest;
   std::atomic<std::uint64_t> scans_ingested{0};
   ComparisonRunner runner;
@@ -130,7 +131,7 @@ ComparisonRecord Daemon::Impl::compare_again(ScanId scan, const Reference& refer
 }
 
 bool Daemon::Impl::wait_for_scan(ScanId scan, std::chrono::milliseconds patience) {
-  const auto deadline = JobSignal::Clock::now() + patience;
+  const auto deadline = Signal::Clock::now() + patience;
   for (;;) {
     const std::uint64_t seen = signal.generation();
     if (store.read([&](const Snapshot& snapshot) { return all_ended(comparisons_of(snapshot, scan)); })) return true;
@@ -169,6 +170,7 @@ StopOutcome Daemon::Impl::stop() {
   const auto deadline = std::chrono::steady_clock::now() + kStopPatience;
   workers.request_stop();
   signal.close();
+  store.commits().close();  // the streams of events end
   http.stop();
   return workers.wait_stopped(deadline) ? StopOutcome::clean : StopOutcome::comparisons_abandoned;
 }

@@ -40,7 +40,7 @@ std::vector<Event> events_after(const Snapshot& snapshot, EventId after, std::op
 }
 
 EventId last_event(const Snapshot& snapshot) {
-  return database_of(snapshot).find<EventId>("SELECT id FROM events ORDER BY id DESC LIMIT 1").value_or(EventId{});
+  return database_of(snapshot).find<EventId>("SELECT max(id) FROM events").value_or(EventId{});
 }
 
 }  // namespace raywatch

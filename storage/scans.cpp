@@ -35,18 +35,6 @@ void require_sensor_of_site(const Snapshot& snapshot, const ScanRecord& scan) {
   if (sensor->site != scan.site) throw Conflict("sensor \"" + sensor->name + "\" belongs to another site");
 }
 
-/// Coordinates up to this size keep a tenth of a millimetre in 32-bit floats well enough; larger ones, such as those of
-/// map projections, need an origin.
-constexpr double kFarFromZero_m = 10'000.0;
-
-Site with_origin(Transaction& transaction, const Site& site, const Eigen::Vector3d& position_m) {
-  if (site.origin_m) return site;
-  SiteEdit edit;
-  edit.origin_m =
-      position_m.norm() > kFarFromZero_m ? Eigen::Vector3d(position_m.array().round()) : Eigen::Vector3d::Zero();
-  return edit_site(transaction, site.id, edit);
-}
-
 /// The stored scan of the same sensor and time, if it has the same bytes.
 std::optional<ScanRecord> same_scan(const Snapshot& snapshot, const ScanRecord& scan) {
   std::optional<ScanRecord> stored = find_scan(snapshot, scan.sensor, scan.captured_at);
@@ -185,7 +173,7 @@ ScanRecord insert_scan(Transaction& transaction, ScanRecord scan) {
   require_finite(scan.pose);
   require_sensor_of_site(transaction, scan);
   if (std::optional<ScanRecord> stored = same_scan(transaction, scan)) return std::move(*stored);
-  const Site site = with_origin(transaction, site_of(transaction, scan), scan.pose.position_m);
+  const Site site = fix_origin(transaction, site_of(transaction, scan), scan.pose.position_m);
   const VantageId vantage = vantage_for_scan(transaction, scan.site, local_pose(scan, site).position_m);
   const ScanId id = insert_row(transaction, scan, vantage);
   add_scan_to_vantage(transaction, vantage, scan.captured_at);
