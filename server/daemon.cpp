@@ -16,6 +16,7 @@
 #include "server/progress_board.hpp"
 #include "server/reference_resolver.hpp"
 #include "server/workers.hpp"
+#include "storage/baselines.hpp"
 #include "storage/comparisons.hpp"
 #include "storage/payloads.hpp"
 #include "storage/signal.hpp"
@@ -140,8 +141,10 @@ bool Daemon::Impl::wait_for_scan(ScanId scan, std::chrono::milliseconds patience
 }
 
 void Daemon::Impl::delete_scan(ScanId scan) {
-  const std::vector<PayloadRef> payloads =
-      store.write([&](Transaction& transaction) { return raywatch::delete_scan(transaction, scan); });
+  const std::vector<PayloadRef> payloads = store.write([&](Transaction& transaction) {
+    withdraw_from_baseline(transaction, scan, now());
+    return raywatch::delete_scan(transaction, scan);
+  });
   for (const PayloadRef& payload : payloads) store.payloads().remove(payload);
   cache.forget(scan);
 }

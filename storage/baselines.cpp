@@ -87,6 +87,21 @@ BaselineVersion edit_baseline(Transaction& transaction, SiteId site, const Basel
   return find_baseline(transaction, site, version).value();
 }
 
+void withdraw_from_baseline(Transaction& transaction, ScanId scan, Time now) {
+  Database& database = database_of(transaction);
+  const auto site = database.find<SiteId>(
+      "SELECT site FROM baseline_entries INDEXED BY baseline_entries_by_scan WHERE scan = ? AND until_version IS NULL",
+      scan);
+  if (!site) return;
+  const BaselineVersion version = edit_baseline(
+      transaction, *site,
+      {.kind = "withdrawn", .by = "raywatch", .note = "scan " + std::to_string(scan.value) + " was deleted"}, now);
+  database.run(
+      "UPDATE baseline_entries INDEXED BY baseline_entries_by_scan SET until_version = ? WHERE scan = ? AND "
+      "until_version IS NULL",
+      version.version, scan);
+}
+
 std::optional<BaselineVersion> latest_baseline(const Snapshot& snapshot, SiteId site) {
   Statement row(database_of(snapshot), kSelectVersions + "WHERE site = ? ORDER BY version DESC LIMIT 1");
   if (!row.bind(site).next()) return std::nullopt;

@@ -35,7 +35,7 @@ struct BaselineEntry {
 struct BaselineVersion {
   SiteId site;
   std::int64_t version = 0;  ///< 1, 2, ... within the site
-  std::string kind;          ///< learned, joined, accepted, replaced, emptied
+  std::string kind;          ///< learned, joined, accepted, replaced, emptied, withdrawn
   Time made_at;
   std::string by, note;
 };
@@ -48,6 +48,9 @@ struct BaselineEdit {
 };
 /// Makes a version and an event. @throws NotFound for the site.
 BaselineVersion edit_baseline(Transaction& transaction, SiteId site, const BaselineEdit& edit, Time now);
+
+/// Takes a scan that is to be deleted out of the present baseline, in a version of its own; nothing if it is not in it.
+void withdraw_from_baseline(Transaction& transaction, ScanId scan, Time now);
 
 std::optional<BaselineVersion> latest_baseline(const Snapshot& snapshot, SiteId site);
 std::optional<BaselineVersion> find_baseline(const Snapshot& snapshot, SiteId site, std::int64_t version);

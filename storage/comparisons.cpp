@@ -97,15 +97,20 @@ void set_comparison_state(Transaction& transaction, ComparisonId id, ComparisonS
 
 void update_scan_state(Transaction& transaction, ScanId scan) {
   Statement rows(database_of(transaction),
-                 "SELECT state, failure FROM comparisons INDEXED BY comparisons_by_scan WHERE scan = ? ORDER BY id");
+                 "SELECT state, failure, watching FROM comparisons INDEXED BY comparisons_by_scan WHERE scan = ? "
+                 "ORDER BY id");
   rows.bind(scan);
   std::set<std::string, std::less<>> states;
   std::string last_failure;
+  bool watching_waits = false;
   while (rows.next()) {
-    states.insert(rows.take<std::string>());
+    std::string state = rows.take<std::string>();
     if (std::string why = rows.take<std::string>(); !why.empty()) last_failure = std::move(why);
+    watching_waits = watching_waits || (rows.take<bool>() && state == to_string(ComparisonState::queued));
+    states.insert(std::move(state));
   }
-  if (states.contains(to_string(ComparisonState::running)))
+  const bool half_done = watching_waits && states.size() > 1;
+  if (states.contains(to_string(ComparisonState::running)) || half_done)
     return set_scan_state(transaction, scan, ScanState::comparing);
   if (states.contains(to_string(ComparisonState::done))) return set_scan_state(transaction, scan, ScanState::compared);
   if (states.contains(to_string(ComparisonState::queued))) return set_scan_state(transaction, scan, ScanState::queued);

@@ -100,8 +100,10 @@ Reference parse_reference(JsonObject& body) {
 
 /// What an explicit reference names must be there, in the same site, and not the compared scan.
 void check_scans(const Snapshot& snapshot, const ScanRecord& scan, const Reference& reference, FieldErrors& errors) {
-  if (std::holds_alternative<BaselineReference>(reference) && !latest_baseline(snapshot, scan.site)) {
-    errors.add("reference", "the site has no baseline");
+  if (std::holds_alternative<BaselineReference>(reference)) {
+    const auto latest = latest_baseline(snapshot, scan.site);
+    const bool is_empty = !latest || baseline_entries(snapshot, scan.site, latest->version).empty();
+    if (is_empty) errors.add("reference", "the site has no baseline");
   }
   const auto* scans = std::get_if<ExplicitReference>(&reference);
   if (scans == nullptr) return;
