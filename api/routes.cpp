@@ -77,6 +77,8 @@ constexpr Route kRoutes[] = {
     {"POST", "/api/v1/alerts/{id}/snooze", endpoints::snooze_alert, "Puts it off until a time"},
     {"POST", "/api/v1/alerts/{id}/accept", endpoints::accept_alert, "Makes the change part of what is normal"},
 
+    {"GET", "/api/v1/history", endpoints::get_history, "What was at a place through time"},
+
     {"GET", "/api/v1/events", endpoints::stream_events, "Everything that happens, as it happens"},
     {"GET", "/api/v1/events/log", endpoints::list_events, "Everything that happened, in order"},
 

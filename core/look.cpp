@@ -7,22 +7,21 @@ namespace raywatch {
 namespace {
 
 /// As in `detect`: wide enough to have neighbours on every side of a direction.
-double angle_for(const ScanView& scan, const CompareParameters& parameters) {
+double angle_for(const SensorModel& sensor, const CompareParameters& parameters) {
   constexpr double kAnglePerSpacing = 1.6;
   constexpr double kFallbackAngle_rad = std::numbers::pi / 180.0;
   if (parameters.angle_rad) return *parameters.angle_rad;
-  const double spacing_rad = scan.sensor.angular_resolution_rad ? scan.sensor.angular_resolution_rad->maxCoeff() : 0.0;
+  const double spacing_rad = sensor.angular_resolution_rad ? sensor.angular_resolution_rad->maxCoeff() : 0.0;
   return spacing_rad > 0.0 ? std::min(kAnglePerSpacing * spacing_rad, std::numbers::pi / 2) : kFallbackAngle_rad;
 }
 
-/// Single places are asked about more closely than T_r allows: a thing that stands flat before a wall is gone when the
-/// wall is seen, however near that is.
-double range_for(const CompareParameters& parameters) {
-  return parameters.support_distance_m > 0.0 ? std::min(parameters.support_distance_m, parameters.range_m)
-                                             : parameters.range_m;
-}
-
 }  // namespace
+
+Thresholds look_thresholds(const SensorModel& sensor, const CompareParameters& parameters) {
+  const bool weighs = parameters.support_distance_m > 0.0;
+  return {.angle_rad = angle_for(sensor, parameters),
+          .range_m = weighs ? std::min(parameters.support_distance_m, parameters.range_m) : parameters.range_m};
+}
 
 std::vector<Answer> look_at(const ScanView& scan, std::span<const Eigen::Vector3d> places_m,
                             const CompareParameters& parameters) {
@@ -36,7 +35,7 @@ std::vector<Answer> look_at(const ScanView& scan, std::span<const Eigen::Vector3
     valid.push_back(is_usable(p.norm(), scan.index.usable()) ? 1 : 0);
   }
   std::vector<Answer> answers(places_m.size(), Answer::unseen);
-  ask(scan.index, places, valid, Pose{}, {angle_for(scan, parameters), range_for(parameters)}, answers);
+  ask(scan.index, places, valid, Pose{}, look_thresholds(scan.sensor, parameters), answers);
   return answers;
 }
 

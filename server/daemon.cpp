@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "core/error.hpp"
+#include "server/caretaker.hpp"
 #include "server/comparison_runner.hpp"
 #include "server/index_cache.hpp"
 #include "server/ingest_service.hpp"
@@ -66,6 +67,8 @@ struct Daemon::Impl {
                 {.workers = config.workers > 0 ? config.workers : cores(),
                  .compare_threads = config.compare_threads > 0 ? std::min(config.compare_threads, cores()) : cores()},
                 now),
+        caretaker(store, {.low_disk_bytes = 2 * config.min_free_disk_bytes}),
+        caretaker_thread(caretaker, now),
         http(with_spool(config.http, config.data_dir),
              {store, commands(), [this] { return status(); }, now,
               [](const std::string& failure) { spdlog::error("{}", failure); }}) {
@@ -93,6 +96,8 @@ struct Daemon::Impl {
   ComparisonRunner runner;
   const std::uint64_t requeued;
   Workers workers;
+  Caretaker caretaker;
+  CaretakerThread caretaker_thread;
   HttpServer http;
 };
 

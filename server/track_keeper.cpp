@@ -173,45 +173,38 @@ void TrackKeeper::apply(const AlertStep& step) {
   using enum AlertStep::Kind;
   const auto told = std::ranges::find_if(told_, [&](const Told& t) { return t.record.track.id == step.track; });
   const Track& track = told->record.track;
+  if (step.kind == open) return open_alert_about(track, step);
   AlertChange change{.by = std::string(kProgram), .at = options_.now, .scan = turn_.scan};
-  switch (step.kind) {
-    case open: {
-      const RuleRecord rule = find_rule(transaction_, step.rule).value();
-      open_alert(transaction_,
-                 {.site = turn_.site,
-                  .title = alert_title(transaction_, track, rule),
-                  .severity = step.severity,
-                  .track = track.id,
-                  .rule = rule.rule.id,
-                  .zone = rule.rule.zone,
-                  .sensor = turn_.sensor,
-                  .scan = turn_.scan,
-                  .rule_name = rule.name,
-                  .rule_then = rule.rule,
-                  .auto_resolve = rule.rule.auto_resolve,
-                  .opened_at = options_.now},
-                 opening_note(track, rule.rule));
-      return;
-    }
-    case reopen:
-      change.action = "reopened";
-      change.note = "It is so again.";
-      change.state = AlertState::open;
-      change.severity = step.severity;
-      break;
-    case raise:
-      change.action = "raised";
-      change.note = "The rule is more severe now.";
-      change.severity = step.severity;
-      break;
-    case resolve:
-      change.action = "resolved";
-      change.note = track.kind == ChangeKind::added ? "It is gone." : "It is back.";
-      change.state = AlertState::resolved;
-      change.resolved_as_gone = true;
-      break;
+  if (step.kind == resolve) {
+    change.action = "resolved";
+    change.note = track.kind == ChangeKind::added ? "It is gone." : "It is back.";
+    change.state = AlertState::resolved;
+    change.resolved_as_gone = true;
+  } else {
+    change.action = step.kind == reopen ? "reopened" : "raised";
+    change.note = step.kind == reopen ? "It is so again." : "The rule is more severe now.";
+    if (step.kind == reopen) change.state = AlertState::open;
+    change.severity = step.severity;
   }
   change_alert(transaction_, step.alert.value(), change);
+}
+
+void TrackKeeper::open_alert_about(const Track& track, const AlertStep& step) {
+  const RuleRecord rule = find_rule(transaction_, step.rule).value();
+  open_alert(transaction_,
+             {.site = turn_.site,
+              .title = alert_title(transaction_, track, rule),
+              .severity = step.severity,
+              .track = track.id,
+              .rule = rule.rule.id,
+              .zone = rule.rule.zone,
+              .sensor = turn_.sensor,
+              .scan = turn_.scan,
+              .rule_name = rule.name,
+              .rule_then = rule.rule,
+              .auto_resolve = rule.rule.auto_resolve,
+              .opened_at = options_.now},
+             opening_note(track, rule.rule));
 }
 
 void TrackKeeper::add_event(const std::string& type, const Track& track, const std::string& text) {

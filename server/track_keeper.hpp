@@ -34,6 +34,7 @@ class TrackKeeper {
   void assign_other_comparisons();
   void judge_told();
   void apply(const AlertStep& step);
+  void open_alert_about(const Track& track, const AlertStep& step);
   void add_event(const std::string& type, const Track& track, const std::string& text);
 
   Transaction& transaction_;

@@ -77,6 +77,8 @@ HttpAnswer accept_alert(Call& call);
 HttpAnswer list_baselines(Call& call);
 HttpAnswer accept_baseline(Call& call);
 
+HttpAnswer get_history(Call& call);
+
 HttpAnswer stream_events(Call& call);
 HttpAnswer list_events(Call& call);
 

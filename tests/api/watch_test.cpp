@@ -274,6 +274,40 @@ TEST_CASE("a rule tried over what happened alerts exactly as it would have") {
            "");
 }
 
+TEST_CASE("the history of a place says when it was free, occupied or out of sight, from the rays alone") {
+  WatchedYard yard;
+  yard.scan();
+  yard.scan();
+  yard.scan(kBox);
+  yard.scan(kBox);
+  yard.scan();
+  // The face of the box is at x = 95.5; behind it nothing is seen while it stands there.
+  const json at_face = yard.get("/api/v1/history?site=yard&point=95.5,200,1.5").json();
+  CHECK_EQ(at_face["scans"], 5);
+  REQUIRE_EQ(at_face["intervals"].size(), 3);
+  CHECK_EQ(at_face["intervals"][0]["state"], "free");
+  CHECK_EQ(at_face["intervals"][0]["last_scan"], 2);
+  CHECK_EQ(at_face["intervals"][1]["state"], "occupied");
+  CHECK_EQ(at_face["intervals"][1]["from"], "2026-03-01T08:02:00Z");
+  CHECK_EQ(at_face["intervals"][2]["state"], "free");
+  const json behind = yard.get("/api/v1/history?site=yard&point=93,200,1.5").json()["intervals"];
+  REQUIRE_EQ(behind.size(), 1);
+  CHECK_EQ(behind[0]["state"], "free");
+  CHECK_EQ(behind[0]["scans"], 3);
+  CHECK_EQ(behind[0]["not_seen"], 2);
+  const json wall = yard.get("/api/v1/history?site=yard&point=80,200,1.5").json()["intervals"];
+  REQUIRE_EQ(wall.size(), 1);
+  CHECK_EQ(wall[0]["state"], "not_seen");
+  const json box = yard.get("/api/v1/history?site=yard&box=95.2,199.8,1.2,95.8,200.2,1.8").json()["intervals"];
+  REQUIRE_EQ(box.size(), 3);
+  CHECK_EQ(box[1]["state"], "occupied");
+  const std::string later = "&from=2026-03-01T08:02:00Z&to=2026-03-01T08:04:00Z";
+  CHECK_EQ(yard.get("/api/v1/history?site=yard&point=95.5,200,1.5" + later).json()["intervals"].size(), 1);
+  CHECK_NE(yard.get("/api/v1/history?site=yard").complaint_about("point"), "");
+  CHECK_NE(yard.get("/api/v1/history?site=yard&box=1,1,1,1,2,2").complaint_about("box"), "");
+  CHECK_EQ(yard.get("/api/v1/history?site=nowhere&point=0,0,0").status, 404);
+}
+
 TEST_CASE("a silence holds back alerts of what it names") {
   WatchedYard yard;
   const Reply made = yard.post("/api/v1/silences", {{"site", "yard"},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "server/caretaker.hpp"
 #include "tests/server/watched_place.hpp"
 
 namespace raywatch {
@@ -195,6 +196,48 @@ TEST_CASE("a bag that one scan misses stays one alert: it comes back") {
   CHECK(place.alerts().front().state == AlertState::open);
   CHECK(place.tracks().size() == 1);
   CHECK(count(place.events(), "alert.reopened") == 1);
+}
+
+TEST_CASE("a snooze ends by itself, and a sensor that falls silent is told once, until a scan comes") {
+  WatchedPlace place;
+  place.learn();
+  place.take(kBag);
+  place.take(kBag);
+  const AlertId alert = place.alerts().front().id;
+  place.store().write([&](Transaction& t) {
+    change_alert(t, alert,
+                 {.action = "snoozed",
+                  .by = "anna",
+                  .at = place.now(),
+                  .state = AlertState::snoozed,
+                  .snoozed_until = place.now() + std::chrono::minutes(1)});
+    edit_sensor(t, find_sensor(t, "mast")->id, {.interval_s = std::optional(60.0)});
+  });
+  Caretaker caretaker(place.store(), {.low_disk_bytes = 0});
+  caretaker.look_after(place.now());
+  CHECK(place.alerts().front().state == AlertState::snoozed);
+  caretaker.look_after(place.now() + std::chrono::minutes(1));
+  CHECK(place.alerts().front().state == AlertState::open);
+  CHECK(place.alerts().size() == 1);
+
+  caretaker.look_after(place.now() + std::chrono::minutes(3));
+  caretaker.look_after(place.now() + std::chrono::minutes(4));
+  REQUIRE(place.alerts().size() == 2);
+  CHECK(place.alerts().back().cause == "sensor-silent");
+  CHECK(place.alerts().back().state == AlertState::open);
+  place.take(kBag);
+  caretaker.look_after(place.now());
+  CHECK(place.alerts().back().state == AlertState::resolved);
+  CHECK(place.alerts().front().state == AlertState::open);
+}
+
+TEST_CASE("a disk that fills up is told, and that there is room again") {
+  WatchedPlace place;
+  Caretaker(place.store(), {.low_disk_bytes = std::uint64_t{1} << 62}).look_after(place.now());
+  REQUIRE(place.alerts().size() == 1);
+  CHECK(place.alerts().front().cause == "disk-low");
+  Caretaker(place.store(), {.low_disk_bytes = 0}).look_after(place.now());
+  CHECK(place.alerts().front().state == AlertState::resolved);
 }
 
 TEST_CASE("what a scan shows against the one before belongs to the same track as what it shows against the baseline") {

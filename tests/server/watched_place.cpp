@@ -45,7 +45,8 @@ WatchedPlace::WatchedPlace(const WatchConfig& watch)
       runner_(store_, cache_, progress_, {.previous_limit = std::chrono::hours(24), .watch = watch},
               [this] { return now(); }) {
   site_ = store_.write([&](Transaction& transaction) {
-    const SiteId site = insert_site(transaction, {.name = "yard", .time_zone = "UTC"}, now()).id;
+    const SiteId site =
+        insert_site(transaction, {.name = "yard", .time_zone = "UTC", .origin_m = Eigen::Vector3d::Zero()}, now()).id;
     insert_rule(transaction, default_rule(site, Profile::indoor), now());
     return site;
   });
