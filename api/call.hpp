@@ -16,6 +16,8 @@
 
 namespace raywatch {
 
+class StreamSlots;
+
 /// Answers given since the start, by the first digit of their status.
 struct HttpStatistics {
   std::array<std::atomic<std::uint64_t>, 6> answers{};
@@ -27,6 +29,7 @@ struct Call {
   const Services& services;
   const HttpConfig& config;
   const HttpStatistics& statistics;
+  StreamSlots& streams;
   std::vector<std::string> path;  ///< what stands for the {...} of the route's pattern, decoded, in their order
   Query query;
   RequestBody& body;

@@ -47,6 +47,7 @@ HttpAnswer answer_of(const ExchangeContext& context, const httplib::Request& req
       .services = context.services,
       .config = context.config,
       .statistics = context.statistics,
+      .streams = context.streams,
       .path = std::move(match.values),
       .query = Query(query.substr(0, query.find('#'))),
       .body = body,
@@ -100,6 +101,8 @@ void fill_content(const httplib::Request& request, HttpAnswer& answer, httplib::
     response.set_chunked_content_provider(
         answer.content_type,
         [write = std::move(answer.stream)](std::size_t, httplib::DataSink& sink) { return send_stream(write, sink); });
+  } else if (answer.endless) {
+    response.set_content("", answer.content_type);  // HTTP/1.0 has no chunks, and HEAD no content
   } else if (answer.stream) {
     std::ostringstream out;
     answer.stream(out);

@@ -13,6 +13,7 @@ struct ExchangeContext {
   const Services& services;
   const HttpConfig& config;
   HttpStatistics& statistics;
+  StreamSlots& streams;
   Listener& listener;
 };
 

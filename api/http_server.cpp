@@ -1,11 +1,13 @@
 #include "api/http_server.hpp"
 
+#include <algorithm>
 #include <thread>
 
 #include "api/call.hpp"
 #include "api/exchange.hpp"
 #include "api/guard.hpp"
 #include "api/listener.hpp"
+#include "api/stream_slots.hpp"
 #include "core/error.hpp"
 
 namespace raywatch {
@@ -14,12 +16,13 @@ struct HttpServer::Impl {
   Impl(const HttpConfig& given_config, const Services& given_services)
       : config(given_config),
         services(given_services),
+        streams(std::max<std::size_t>(1, config.threads / 2)),
         listener(
             config.threads, {config.idle_timeout, config.stall_timeout, config.min_client_bytes_per_s},
             {.handle =
                  [this](const httplib::Request& request, httplib::Response& response,
                         const httplib::ContentReader* reader) {
-                   answer_request({services, config, statistics, listener}, request, response, reader);
+                   answer_request({services, config, statistics, streams, listener}, request, response, reader);
                  },
              .refuse_early = [this](const httplib::Request& request,
                                     httplib::Response& response) { refuse_too_large(config, request, response); }}) {}
@@ -27,6 +30,7 @@ struct HttpServer::Impl {
   const HttpConfig config;
   const Services services;
   HttpStatistics statistics;
+  StreamSlots streams;
   Listener listener;
   std::uint16_t port = 0;
   std::jthread thread;  // last: it uses all the others

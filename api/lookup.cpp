@@ -37,4 +37,24 @@ ChangeRecord change_with(const Snapshot& snapshot, ChangeId id) {
   return required(find_change(snapshot, id), "change " + std::to_string(id.value));
 }
 
+ZoneRecord zone_with(const Snapshot& snapshot, ZoneId id) {
+  return required(find_zone(snapshot, id), "zone " + std::to_string(id.value));
+}
+
+RuleRecord rule_with(const Snapshot& snapshot, RuleId id) {
+  return required(find_rule(snapshot, id), "rule " + std::to_string(id.value));
+}
+
+SilenceRecord silence_with(const Snapshot& snapshot, SilenceId id) {
+  return required(find_silence(snapshot, id), "silence " + std::to_string(id.value));
+}
+
+TrackRecord track_with(const Snapshot& snapshot, TrackId id) {
+  return required(find_track(snapshot, id), "track " + std::to_string(id.value));
+}
+
+AlertRecord alert_with(const Snapshot& snapshot, AlertId id) {
+  return required(find_alert(snapshot, id), "alert " + std::to_string(id.value));
+}
+
 }  // namespace raywatch

@@ -6,10 +6,14 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "storage/alerts.hpp"
 #include "storage/comparisons.hpp"
+#include "storage/rules.hpp"
 #include "storage/scans.hpp"
 #include "storage/sensors.hpp"
 #include "storage/sites.hpp"
+#include "storage/tracks.hpp"
+#include "storage/zones.hpp"
 
 namespace raywatch {
 
@@ -20,6 +24,11 @@ Site site_with(const Snapshot& snapshot, SiteId id);
 ScanRecord scan_with(const Snapshot& snapshot, ScanId id);
 ComparisonRecord comparison_with(const Snapshot& snapshot, ComparisonId id);
 ChangeRecord change_with(const Snapshot& snapshot, ChangeId id);
+ZoneRecord zone_with(const Snapshot& snapshot, ZoneId id);
+RuleRecord rule_with(const Snapshot& snapshot, RuleId id);
+SilenceRecord silence_with(const Snapshot& snapshot, SilenceId id);
+TrackRecord track_with(const Snapshot& snapshot, TrackId id);
+AlertRecord alert_with(const Snapshot& snapshot, AlertId id);
 /// @}
 
 /// The id in a path. What is no id names nothing. @throws NotFound.

@@ -28,6 +28,17 @@ std::string checked_name(const std::string& name) {
   return name;
 }
 
+std::string checked_actor(const std::string& name) {
+  if (name.empty() || name.size() > 100) throw InvalidInput("must have 1 to 100 bytes");
+  if (std::ranges::any_of(name, is_control)) throw InvalidInput("must not have control characters");
+  return name;
+}
+
+std::string checked_note(const std::string& note) {
+  if (note.size() > 2000) throw InvalidInput("must have at most 2000 bytes");
+  return note;
+}
+
 std::string checked_time_zone(const std::string& name) {
   static const std::filesystem::path zones = "/usr/share/zoneinfo";
   if (name == "UTC") return name;

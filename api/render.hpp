@@ -8,10 +8,16 @@
 #include "api/json.hpp"
 #include "core/pose.hpp"
 #include "core/time.hpp"
+#include "storage/alerts.hpp"
+#include "storage/baselines.hpp"
 #include "storage/comparisons.hpp"
+#include "storage/events.hpp"
+#include "storage/rules.hpp"
 #include "storage/scans.hpp"
 #include "storage/sensors.hpp"
 #include "storage/sites.hpp"
+#include "storage/tracks.hpp"
+#include "storage/zones.hpp"
 
 namespace raywatch {
 
@@ -33,7 +39,28 @@ Json render(const Snapshot& snapshot, const ComparisonRecord& comparison);  ///<
 Json render(const Snapshot& snapshot, const ChangeRecord& change);
 Json render(const ComparisonCandidate& candidate);
 Json render(const Reference& reference);
+Json render(const Snapshot& snapshot, const ZoneRecord& zone);
+Json render(const ZoneCoverage& coverage);
+Json render(const Snapshot& snapshot, const RuleRecord& rule);
+Json render(const Snapshot& snapshot, const SilenceRecord& silence);
+Json render(const Snapshot& snapshot, const TrackRecord& track);
+Json render(const SightRun& run);
+Json render(const Snapshot& snapshot, const AlertRecord& alert);
+Json render(const AlertHistoryStep& step);
+Json render(const Snapshot& snapshot, const BaselineVersion& version);  ///< with its entries
+Json render(const Snapshot& snapshot, const Event& event);
 /// @}
+
+/// The id of something, or null.
+template <class SomeId>
+Json id_or_null(const std::optional<SomeId>& id) {
+  return id ? Json(id->value) : Json(nullptr);
+}
+
+/// What a rule says, without what names it.
+Json render_rule_body(const Rule& rule);
+/// Where and how large a change is, in the coordinates of its site.
+Json render_figures(const Change& change, const Eigen::Vector3d& origin_m);
 
 /// A page of records: {"items", "next"}.
 template <class T, class RenderItem>

@@ -7,6 +7,7 @@ namespace {
 
 struct RenderReference {
   Json operator()(const PreviousReference&) const { return "previous"; }
+  Json operator()(const BaselineReference&) const { return "baseline"; }
   Json operator()(const WindowReference& window) const {
     return {{"from", format_rfc3339(window.from)}, {"to", format_rfc3339(window.to)}};
   }

@@ -46,6 +46,42 @@ constexpr Route kRoutes[] = {
     {"GET", "/api/v1/changes", endpoints::list_changes, "Lists the changes"},
     {"GET", "/api/v1/changes/{id}", endpoints::get_change, "One change"},
 
+    {"GET", "/api/v1/baselines", endpoints::list_baselines, "What counts as normal, by version"},
+    {"POST", "/api/v1/baselines/{name}/accept", endpoints::accept_baseline, "Changes what counts as normal at a site"},
+
+    {"POST", "/api/v1/zones", endpoints::create_zone, "Makes a zone"},
+    {"GET", "/api/v1/zones", endpoints::list_zones, "Lists the zones"},
+    {"GET", "/api/v1/zones/{id}", endpoints::get_zone, "One zone"},
+    {"PUT", "/api/v1/zones/{id}", endpoints::replace_zone, "Replaces a zone"},
+    {"DELETE", "/api/v1/zones/{id}", endpoints::delete_zone, "Deletes a zone that no rule looks into"},
+    {"GET", "/api/v1/zones/{id}/coverage", endpoints::list_zone_coverage, "How much of a zone each scan could judge"},
+
+    {"POST", "/api/v1/rules", endpoints::create_rule, "Makes a rule"},
+    {"GET", "/api/v1/rules", endpoints::list_rules, "Lists the rules"},
+    {"GET", "/api/v1/rules/{id}", endpoints::get_rule, "One rule"},
+    {"PUT", "/api/v1/rules/{id}", endpoints::replace_rule, "Replaces a rule"},
+    {"DELETE", "/api/v1/rules/{id}", endpoints::delete_rule, "Deletes a rule"},
+    {"POST", "/api/v1/rules/{id}/test", endpoints::test_rule, "What a rule would have alerted of"},
+
+    {"POST", "/api/v1/silences", endpoints::create_silence, "Silences a site, zone or sensor for a time"},
+    {"GET", "/api/v1/silences", endpoints::list_silences, "Lists the silences"},
+    {"DELETE", "/api/v1/silences/{id}", endpoints::delete_silence, "Ends a silence"},
+
+    {"GET", "/api/v1/tracks", endpoints::list_tracks, "Lists changes through time"},
+    {"GET", "/api/v1/tracks/{id}", endpoints::get_track, "One change through time"},
+
+    {"GET", "/api/v1/alerts", endpoints::list_alerts, "Lists the alerts"},
+    {"GET", "/api/v1/alerts/{id}", endpoints::get_alert, "One alert, with its history and why it was raised"},
+    {"POST", "/api/v1/alerts/{id}/acknowledge", endpoints::acknowledge_alert, "Says that somebody takes care"},
+    {"POST", "/api/v1/alerts/{id}/resolve", endpoints::resolve_alert, "Says that it is over"},
+    {"POST", "/api/v1/alerts/{id}/snooze", endpoints::snooze_alert, "Puts it off until a time"},
+    {"POST", "/api/v1/alerts/{id}/accept", endpoints::accept_alert, "Makes the change part of what is normal"},
+
+    {"GET", "/api/v1/history", endpoints::get_history, "What was at a place through time"},
+
+    {"GET", "/api/v1/events", endpoints::stream_events, "Everything that happens, as it happens"},
+    {"GET", "/api/v1/events/log", endpoints::list_events, "Everything that happened, in order"},
+
     {"POST", "/api/v1/backup", endpoints::create_backup, "Copies the running store"},
 };
 

@@ -20,6 +20,12 @@ using ScanId = Id<struct ScanTag>;
 using JobId = Id<struct JobTag>;
 using ComparisonId = Id<struct ComparisonTag>;
 using ChangeId = Id<struct ChangeTag>;
+using TrackId = Id<struct TrackTag>;
+using ZoneId = Id<struct ZoneTag>;
+using RuleId = Id<struct RuleTag>;
+using AlertId = Id<struct AlertTag>;
+using SilenceId = Id<struct SilenceTag>;
+using EventId = Id<struct EventTag>;
 
 }  // namespace raywatch
 

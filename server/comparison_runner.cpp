@@ -12,9 +12,11 @@
 #include "core/compare.hpp"
 #include "core/error.hpp"
 #include "core/panorama.hpp"
+#include "core/prior_groups.hpp"
 #include "server/reference_resolver.hpp"
 #include "server/stopwatch.hpp"
 #include "server/unowned_payloads.hpp"
+#include "storage/events.hpp"
 #include "storage/payloads.hpp"
 #include "storage/sites.hpp"
 
@@ -72,6 +74,13 @@ struct ComparisonRunner::Subject {
 struct ComparisonRunner::Choice {
   std::vector<ScanRecord> offered;
   std::vector<CandidateAssessment> assessments;
+  std::vector<BaselinePatch> patches;  ///< of the reference `baseline`, whose scans speak within a region only
+};
+
+/// The priors in memory. The groups refer to the scans.
+struct ComparisonRunner::LoadedPriors {
+  std::vector<LoadedScan> scans;
+  std::vector<PriorGroup> groups;
 };
 
 ComparisonRunner::ComparisonRunner(Store& store, IndexCache& cache, ProgressBoard& progress,
@@ -79,6 +88,7 @@ ComparisonRunner::ComparisonRunner(Store& store, IndexCache& cache, ProgressBoar
     : store_(store),
       loader_(store, cache),
       registrar_(store, loader_, config.registrar),
+      watcher_(config.watch),
       progress_(progress),
       config_(config),
       now_(std::move(now)) {}
@@ -102,32 +112,26 @@ void ComparisonRunner::run(const Job& job, tbb::task_arena& arena) {
   result.timings_ms["choose"] = watch.lap_ms();
   progress.set(0.2);
 
-  std::vector<LoadedScan> priors;
-  for (std::size_t i = 0; i < choice.offered.size(); ++i) {
-    const ScanRecord& offered = choice.offered[i];
-    const CandidateAssessment& assessment = choice.assessments[i];
-    result.candidates.push_back(candidate_record(offered, assessment));
-    if (!assessment.chosen) continue;
-    priors.push_back(loader_.load(offered, subject.site, parameters, arena));
-    result.priors.push_back({.scan = offered.id, .vantage = offered.vantage, .overlap = assessment.overlap});
-  }
+  const LoadedPriors priors = load_priors(subject, choice, arena, result);
   load_ms += watch.lap_ms();
   result.timings_ms["load"] = load_ms;
   progress.set(0.5);
 
-  std::vector<ScanView> views;
-  for (const LoadedScan& prior : priors) views.push_back(prior.view());
-  Detection detection = arena.execute([&] { return detect(scan.view(), views, parameters); });
+  const std::vector<ScanView> views = all_priors(priors.groups);
+  Detection detection = arena.execute([&] { return detect_in_regions(scan.view(), priors.groups, parameters); });
   result.timings_ms["detect"] = watch.lap_ms();
   progress.set(0.8);
 
   Comparison comparison =
       arena.execute([&] { return form_changes(scan.view(), views, parameters, std::move(detection)); });
   result.timings_ms["cluster"] = watch.lap_ms();
-  result.timings_ms["total"] = watch.total_ms();
   progress.set(0.9);
 
-  for (std::size_t i = 0; i < priors.size(); ++i) {
+  const Glance glance = look(subject, scan, views, comparison, arena);
+  if (subject.comparison.watching) result.timings_ms["watch"] = watch.lap_ms();
+  result.timings_ms["total"] = watch.total_ms();
+
+  for (std::size_t i = 0; i < result.priors.size(); ++i) {
     result.priors[i].added = comparison.priors[i].added;
     result.priors[i].removed = comparison.priors[i].removed;
   }
@@ -137,7 +141,8 @@ void ComparisonRunner::run(const Job& job, tbb::task_arena& arena) {
   std::ranges::move(comparison.warnings, std::back_inserter(result.warnings));
   commit(job, subject, std::move(result),
          {std::move(comparison.classes), std::move(comparison.free), std::move(comparison.supported),
-          std::move(comparison.change_of), std::move(comparison.prior_points)});
+          std::move(comparison.change_of), std::move(comparison.prior_points)},
+         glance);
 }
 
 ComparisonRunner::Subject ComparisonRunner::read_subject(const Job& job) const {
@@ -174,6 +179,9 @@ ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const 
   const bool refined = refines_poses(subject.comparison.parameters);
   Choice choice;
   choice.offered = store_.read([&](const Snapshot& snapshot) {
+    if (std::holds_alternative<BaselineReference>(reference)) {
+      choice.patches = resolve_patches(snapshot, subject.scan, subject.site, radius_m);
+    }
     return resolve_reference(snapshot, subject.scan, subject.site, reference, limits);
   });
   std::vector<PriorCandidate> candidates;
@@ -192,13 +200,60 @@ ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const 
   return choice;
 }
 
+ComparisonRunner::LoadedPriors ComparisonRunner::load_priors(const Subject& subject, const Choice& choice,
+                                                             tbb::task_arena& arena, ComparisonResult& result) const {
+  LoadedPriors priors;
+  const auto add = [&](const ScanRecord& scan, double overlap, PriorGroup& group) {
+    priors.scans.push_back(loader_.load(scan, subject.site, subject.comparison.parameters, arena));
+    group.priors.push_back(priors.scans.back().view());
+    result.priors.push_back({.scan = scan.id, .vantage = scan.vantage, .overlap = overlap});
+  };
+  PriorGroup everywhere;
+  for (std::size_t i = 0; i < choice.offered.size(); ++i) {
+    const CandidateAssessment& assessment = choice.assessments[i];
+    result.candidates.push_back(candidate_record(choice.offered[i], assessment));
+    if (assessment.chosen) add(choice.offered[i], assessment.overlap, everywhere);
+  }
+  priors.groups.push_back(std::move(everywhere));
+  for (const BaselinePatch& patch : choice.patches) {
+    PriorGroup group{.priors = {}, .region_m = patch.region_m};
+    for (const ScanRecord& scan : patch.scans) add(scan, 0.0, group);
+    priors.groups.push_back(std::move(group));
+  }
+  return priors;
+}
+
+Glance ComparisonRunner::look(const Subject& subject, const LoadedScan& scan, std::span<const ScanView> priors,
+                              const Comparison& comparison, tbb::task_arena& arena) const {
+  if (!subject.comparison.watching) return {};
+  const SiteView site =
+      store_.read([&](const Snapshot& snapshot) { return watcher_.view_site(snapshot, subject.site.id); });
+  return arena.execute(
+      [&] { return watcher_.look(site, scan.view(), priors, comparison, subject.comparison.parameters); });
+}
+
 void ComparisonRunner::commit(const Job& job, const Subject& subject, ComparisonResult result,
-                              const ComparisonPoints& points) {
+                              const ComparisonPoints& points, const Glance& glance) {
   UnownedPayloads written(store_.payloads());
   result.payload = written.add(store_.payloads().put_comparison(subject.site.id, subject.scan.captured_at, points));
   const Time now = now_();
-  const bool is_first =
-      store_.write([&](Transaction& transaction) { return finish_job(transaction, job, result, now); });
+  const bool is_first = store_.write([&](Transaction& transaction) {
+    const std::optional<std::vector<ChangeId>> changes = finish_job(transaction, job, result, now);
+    if (!changes) return false;
+    if (subject.comparison.watching) {
+      watcher_.commit(transaction,
+                      {subject.scan, subject.site, job.comparison, result.testable, result.changes, *changes}, glance,
+                      now);
+    }
+    insert_event(transaction, {.at = now,
+                               .type = "comparison.done",
+                               .site = job.site,
+                               .scan = job.scan,
+                               .comparison = job.comparison,
+                               .sensor = subject.scan.sensor,
+                               .text = std::to_string(result.changes.size()) + " changes were found."});
+    return true;
+  });
   if (!is_first) return;
   written.keep();
   log_registration(subject.scan, result);

@@ -11,6 +11,7 @@
 #include "server/progress_board.hpp"
 #include "server/scan_loader.hpp"
 #include "server/scan_registrar.hpp"
+#include "server/watcher.hpp"
 #include "storage/comparisons.hpp"
 #include "storage/scans.hpp"
 #include "storage/store.hpp"
@@ -21,6 +22,7 @@ struct ComparisonRunnerConfig {
   Duration previous_limit{};  ///< scans older than this are no `previous` reference
   ChoiceParameters choice;
   RegistrarConfig registrar = {};
+  WatchConfig watch = {};
 };
 
 /// Carries out queued comparisons: the way of a scan from its priors to its committed changes. Thread-safe.
@@ -36,16 +38,24 @@ class ComparisonRunner {
  private:
   struct Subject;
   struct Choice;
+  struct LoadedPriors;
 
   Subject read_subject(const Job& job) const;
   /// Refines the scan's pose, the first time that it is compared.
   void register_scan(Subject& subject, LoadedScan& scan, tbb::task_arena& arena, ComparisonResult& result) const;
   Choice choose(const Subject& subject, const LoadedScan& scan) const;
-  void commit(const Job& job, const Subject& subject, ComparisonResult result, const ComparisonPoints& points);
+  LoadedPriors load_priors(const Subject& subject, const Choice& choice, tbb::task_arena& arena,
+                           ComparisonResult& result) const;
+  /// Asks the scan what watching must know of it, when this is a watching comparison.
+  Glance look(const Subject& subject, const LoadedScan& scan, std::span<const ScanView> priors,
+              const Comparison& comparison, tbb::task_arena& arena) const;
+  void commit(const Job& job, const Subject& subject, ComparisonResult result, const ComparisonPoints& points,
+              const Glance& glance);
 
   Store& store_;
   ScanLoader loader_;
   ScanRegistrar registrar_;
+  Watcher watcher_;
   ProgressBoard& progress_;
   ComparisonRunnerConfig config_;
   std::function<Time()> now_;

@@ -9,16 +9,18 @@
 #include <variant>
 
 #include "core/error.hpp"
+#include "server/caretaker.hpp"
 #include "server/comparison_runner.hpp"
 #include "server/index_cache.hpp"
 #include "server/ingest_service.hpp"
-#include "server/job_signal.hpp"
 #include "server/machine.hpp"
 #include "server/progress_board.hpp"
 #include "server/reference_resolver.hpp"
 #include "server/workers.hpp"
+#include "storage/baselines.hpp"
 #include "storage/comparisons.hpp"
 #include "storage/payloads.hpp"
+#include "storage/signal.hpp"
 #include "storage/sites.hpp"
 #include "storage/sweep.hpp"
 
@@ -58,12 +60,15 @@ struct Daemon::Impl {
         ingest(store,
                {.queue_limit = config.queue_limit, .future_tolerance = config.future_tolerance, .file_limits = {}},
                now),
-        runner(store, cache, progress, {.previous_limit = config.previous_limit, .choice = config.choice}, now),
+        runner(store, cache, progress,
+               {.previous_limit = config.previous_limit, .choice = config.choice, .watch = config.watch}, now),
         requeued(recover(store)),
         workers(store, runner, signal,
                 {.workers = config.workers > 0 ? config.workers : cores(),
                  .compare_threads = config.compare_threads > 0 ? std::min(config.compare_threads, cores()) : cores()},
                 now),
+        caretaker(store, {.low_disk_bytes = 2 * config.min_free_disk_bytes}),
+        caretaker_thread(caretaker, now),
         http(with_spool(config.http, config.data_dir),
              {store, commands(), [this] { return status(); }, now,
               [](const std::string& failure) { spdlog::error("{}", failure); }}) {
@@ -85,12 +90,14 @@ struct Daemon::Impl {
   Store store;
   IndexCache cache;
   ProgressBoard progress;
-  JobSignal signal;
+  Signal signal;
   IngestService ingest;
   std::atomic<std::uint64_t> scans_ingested{0};
   ComparisonRunner runner;
   const std::uint64_t requeued;
   Workers workers;
+  Caretaker caretaker;
+  CaretakerThread caretaker_thread;
   HttpServer http;
 };
 
@@ -130,7 +137,7 @@ ComparisonRecord Daemon::Impl::compare_again(ScanId scan, const Reference& refer
 }
 
 bool Daemon::Impl::wait_for_scan(ScanId scan, std::chrono::milliseconds patience) {
-  const auto deadline = JobSignal::Clock::now() + patience;
+  const auto deadline = Signal::Clock::now() + patience;
   for (;;) {
     const std::uint64_t seen = signal.generation();
     if (store.read([&](const Snapshot& snapshot) { return all_ended(comparisons_of(snapshot, scan)); })) return true;
@@ -139,8 +146,10 @@ bool Daemon::Impl::wait_for_scan(ScanId scan, std::chrono::milliseconds patience
 }
 
 void Daemon::Impl::delete_scan(ScanId scan) {
-  const std::vector<PayloadRef> payloads =
-      store.write([&](Transaction& transaction) { return raywatch::delete_scan(transaction, scan); });
+  const std::vector<PayloadRef> payloads = store.write([&](Transaction& transaction) {
+    withdraw_from_baseline(transaction, scan, now());
+    return raywatch::delete_scan(transaction, scan);
+  });
   for (const PayloadRef& payload : payloads) store.payloads().remove(payload);
   cache.forget(scan);
 }
@@ -169,6 +178,7 @@ StopOutcome Daemon::Impl::stop() {
   const auto deadline = std::chrono::steady_clock::now() + kStopPatience;
   workers.request_stop();
   signal.close();
+  store.commits().close();  // the streams of events end
   http.stop();
   return workers.wait_stopped(deadline) ? StopOutcome::clean : StopOutcome::comparisons_abandoned;
 }

@@ -9,6 +9,7 @@
 #include "api/http_server.hpp"
 #include "core/choose_priors.hpp"
 #include "core/time.hpp"
+#include "server/watcher.hpp"
 
 namespace raywatch {
 
@@ -23,6 +24,7 @@ struct DaemonConfig {
   std::chrono::seconds future_tolerance{60};    ///< a capture time later than now by more than this is refused
   std::chrono::hours previous_limit{24 * 365};  ///< scans older than this are no `previous` reference
   ChoiceParameters choice;
+  WatchConfig watch;
 };
 
 /// How a stop went.

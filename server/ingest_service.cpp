@@ -11,6 +11,7 @@
 #include "core/sensor.hpp"
 #include "server/unowned_payloads.hpp"
 #include "storage/comparisons.hpp"
+#include "storage/events.hpp"
 #include "storage/payloads.hpp"
 #include "storage/sensors.hpp"
 #include "storage/sites.hpp"
@@ -86,13 +87,21 @@ std::optional<std::vector<ScanRecord>> find_stored(const Snapshot& snapshot, con
   return stored;
 }
 
-/// Stores the records, their comparisons with what was before, and what they show about the sensor.
+/// Stores the records, their comparisons with what was before and with what is normal, and what they show about the
+/// sensor.
 std::vector<ScanRecord> insert_all(Transaction& transaction, const std::vector<ArrivingScan>& scans,
                                    const CompareParameters& parameters, Time now) {
   std::vector<ScanRecord> stored;
   for (const ArrivingScan& scan : scans) {
     stored.push_back(insert_scan(transaction, scan.record));
     insert_comparison(transaction, stored.back().id, PreviousReference{}, parameters, now);
+    insert_comparison(transaction, stored.back().id, BaselineReference{}, parameters, now, Watching::yes);
+    insert_event(transaction, {.at = now,
+                               .type = "scan.stored",
+                               .site = stored.back().site,
+                               .scan = stored.back().id,
+                               .sensor = stored.back().sensor,
+                               .text = "A scan was stored."});
     const std::optional<Sensor> sensor = find_sensor(transaction, scan.record.sensor);
     if (!sensor) throw NotFound("the sensor was deleted");
     set_estimated_model(transaction, sensor->id, merged(sensor->estimated, scan.record.estimated));

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "storage/baselines.hpp"
 
 namespace raywatch {
 namespace {
@@ -29,6 +30,17 @@ class Resolver {
         not_before, [&](const Vantage& vantage) { return latest_scan(snapshot_, vantage.id, not_before, before); });
   }
 
+  std::vector<ScanRecord> operator()(const BaselineReference&) const {
+    std::vector<ScanRecord> scans;
+    for (const Vantage& vantage : near_vantages()) {
+      for (const BaselineEntry& entry : baseline_of_vantage(snapshot_, site_.id, vantage.id)) {
+        std::optional<ScanRecord> offered = find_scan(snapshot_, entry.scan);
+        if (offered && offered->id != scan_.id) scans.push_back(std::move(*offered));
+      }
+    }
+    return scans;
+  }
+
   std::vector<ScanRecord> operator()(const WindowReference& window) const {
     return from_vantages(window.from, [&](const Vantage& vantage) {
       std::optional<ScanRecord> latest = latest_scan(snapshot_, vantage.id, window.from, window.to);
@@ -44,14 +56,20 @@ class Resolver {
   }
 
  private:
+  std::vector<Vantage> near_vantages() const {
+    const Eigen::Vector3d position_m = local_pose(scan_, site_).position_m;
+    std::vector<Vantage> vantages = nearest_vantages(snapshot_, site_.id, position_m, kMaxVantages);
+    std::erase_if(vantages,
+                  [&](const Vantage& vantage) { return (vantage.position_m - position_m).norm() > limits_.radius_m; });
+    return vantages;
+  }
+
   /// One of each vantage. Those that are badly registered stand in the list too, so that the candidates say why they
   /// were not chosen; then the one before is offered in their place.
   template <class Offer>
   std::vector<ScanRecord> from_vantages(Time not_before, const Offer& offer) const {
     std::vector<ScanRecord> scans;
-    const Eigen::Vector3d position_m = local_pose(scan_, site_).position_m;
-    for (const Vantage& vantage : nearest_vantages(snapshot_, site_.id, position_m, kMaxVantages)) {
-      if ((vantage.position_m - position_m).norm() > limits_.radius_m) break;
+    for (const Vantage& vantage : near_vantages()) {
       std::optional<ScanRecord> offered = offer(vantage);
       while (offered && offered->registration.state == RegistrationState::bad && scans.size() < kMaxOffered) {
         const Time before = offered->captured_at;
@@ -83,6 +101,22 @@ class Resolver {
 std::vector<ScanRecord> resolve_reference(const Snapshot& snapshot, const ScanRecord& scan, const Site& site,
                                           const Reference& reference, const ReferenceLimits& limits) {
   return std::visit(Resolver(snapshot, scan, site, limits), reference);
+}
+
+std::vector<BaselinePatch> resolve_patches(const Snapshot& snapshot, const ScanRecord& scan, const Site& site,
+                                           double radius_m) {
+  const Eigen::Vector3d position_m = local_pose(scan, site).position_m;
+  std::vector<BaselinePatch> patches;
+  std::int64_t version = 0;
+  for (const BaselineEntry& entry : baseline_patches(snapshot, site.id)) {
+    if (entry.region_m->exteriorDistance(position_m) > radius_m || entry.scan == scan.id) continue;
+    std::optional<ScanRecord> found = find_scan(snapshot, entry.scan);
+    if (!found) continue;
+    if (patches.empty() || entry.from_version != version) patches.push_back({*entry.region_m, {}});
+    version = entry.from_version;
+    patches.back().scans.push_back(std::move(*found));
+  }
+  return patches;
 }
 
 bool is_explicit(const Reference& reference) { return std::holds_alternative<ExplicitReference>(reference); }

@@ -41,6 +41,13 @@ void bind_choice(ConfigReader& reader, ChoiceParameters& choice) {
   reader.real("priors.repeat_weight", choice.repeat_weight, {.min = 0.0, .max = 1.0});
 }
 
+void bind_watch(ConfigReader& reader, WatchConfig& watch) {
+  reader.whole("watch.learn_scans", watch.learn_scans, {.min = 1, .max = 1000});
+  reader.real("watch.learn_below_testable", watch.learn_below_testable, {.min = 0.0, .max = 1.0});
+  reader.duration("watch.late_tolerance_s", watch.late_tolerance, {.min = 0, .max = 86'400});
+  reader.duration("watch.moved_within_s", watch.moved_within, {.min = 0, .max = 31'536'000});
+}
+
 void bind_log(ConfigReader& reader, LogConfig& config) {
   reader.one_of("log.level", config.level, kLogLevels);
   reader.one_of("log.format", config.format, kLogFormats);
@@ -52,6 +59,7 @@ void bind_all(ConfigReader& reader, Settings& settings) {
   bind_ingest(reader, settings.daemon);
   bind_compare(reader, settings.daemon);
   bind_choice(reader, settings.daemon.choice);
+  bind_watch(reader, settings.daemon.watch);
   bind_log(reader, settings.log);
 }
 

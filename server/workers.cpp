@@ -25,7 +25,7 @@ struct Workers::Outcome {
   std::string why = {};
 };
 
-Workers::Workers(Store& store, ComparisonRunner& runner, JobSignal& signal, const WorkersConfig& config,
+Workers::Workers(Store& store, ComparisonRunner& runner, Signal& signal, const WorkersConfig& config,
                  std::function<Time()> now)
     : store_(store), runner_(runner), signal_(signal), config_(config), now_(std::move(now)), alive_(config.workers) {
   for (unsigned i = 0; i < config_.workers; ++i) {

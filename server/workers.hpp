@@ -14,7 +14,7 @@
 
 #include "core/ids.hpp"
 #include "server/comparison_runner.hpp"
-#include "server/job_signal.hpp"
+#include "storage/signal.hpp"
 #include "storage/comparisons.hpp"
 #include "storage/store.hpp"
 
@@ -38,7 +38,7 @@ class Workers {
   /// A job that was started this often without an end takes the process down with it: it ends as failed.
   static constexpr int kMaxAttempts = 10;
 
-  Workers(Store& store, ComparisonRunner& runner, JobSignal& signal, const WorkersConfig& config,
+  Workers(Store& store, ComparisonRunner& runner, Signal& signal, const WorkersConfig& config,
           std::function<Time()> now);
   /// Waits for the running comparisons.
   ~Workers();
@@ -61,7 +61,7 @@ class Workers {
 
   Store& store_;
   ComparisonRunner& runner_;
-  JobSignal& signal_;
+  Signal& signal_;
   const WorkersConfig config_;
   const std::function<Time()> now_;
 

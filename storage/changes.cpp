@@ -1,7 +1,7 @@
 #include <array>
 #include <limits>
 
-#include "storage/columns.hpp"
+#include "storage/change_columns.hpp"
 #include "storage/comparison_rows.hpp"
 #include "storage/comparisons.hpp"
 #include "storage/cursor.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kList = "changes";
 const std::string kColumns =
-    "c.id, c.comparison, c.place, c.site, c.scan, c.captured_at, c.kind, c.centroid_x_m, c.centroid_y_m, "
+    "c.id, c.comparison, c.place, c.site, c.scan, c.captured_at, c.track, c.kind, c.centroid_x_m, c.centroid_y_m, "
     "c.centroid_z_m, c.min_x_m, c.min_y_m, c.min_z_m, c.max_x_m, c.max_y_m, c.max_z_m, c.box_pose, c.box_x_m, "
     "c.box_y_m, c.box_z_m, c.volume_m3, c.points, c.confidence, c.free, c.supported, c.unknown";
 
@@ -26,20 +26,8 @@ ChangeRecord read_change(Statement& row) {
   record.site = row.take<SiteId>();
   record.scan = row.take<ScanId>();
   record.captured_at = row.take<Time>();
-  Change& change = record.change;
-  change.kind =
-      enum_from_text(row.take<std::string>(), {ChangeKind::added, ChangeKind::removed, ChangeKind::discrepancy});
-  change.centroid_m = take_vector(row);
-  change.bounds_m.min() = take_vector(row);
-  change.bounds_m.max() = take_vector(row);
-  const Pose world_from_box = pose_from_bytes(row.take<std::span<const std::uint8_t>>());
-  change.box = {world_from_box.position_m, take_vector(row), world_from_box.orientation};
-  change.volume_m3 = row.take<double>();
-  change.points = row.take<std::size_t>();
-  change.confidence.value = row.take<double>();
-  change.confidence.free = row.take<double>();
-  change.confidence.supported = row.take<double>();
-  change.confidence.unknown = row.take<double>();
+  record.track = row.take<std::optional<TrackId>>();
+  record.change = take_change(row);
   return record;
 }
 
@@ -51,25 +39,22 @@ void insert_bounds(Database& database, ChangeId id, SiteId site, const Eigen::Al
   row.next();
 }
 
-void insert_change(Database& database, const ComparisonRecord& comparison, Time captured_at, std::int64_t place,
-                   const Change& change) {
-  const PoseBytes box_pose = pose_bytes({change.box.world_from_box, change.box.center_m});
+ChangeId insert_change(Database& database, const ComparisonRecord& comparison, Time captured_at, std::int64_t place,
+                       const Change& change) {
+  const PoseBytes box_pose = box_pose_bytes(change);
   {
     Statement row(database,
-                  "INSERT INTO changes (comparison, place, site, scan, captured_at, kind, centroid_x_m, centroid_y_m, "
-                  "centroid_z_m, min_x_m, min_y_m, min_z_m, max_x_m, max_y_m, max_z_m, box_pose, box_x_m, box_y_m, "
-                  "box_z_m, volume_m3, points, confidence, free, supported, unknown) VALUES "
-                  "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-    row.bind(comparison.id, place, comparison.site, comparison.scan, captured_at, to_string(change.kind));
-    for (const Eigen::Vector3d& v : {change.centroid_m, change.bounds_m.min(), change.bounds_m.max()}) {
-      row.bind(v.x(), v.y(), v.z());
-    }
-    row.bind(box_pose, change.box.size_m.x(), change.box.size_m.y(), change.box.size_m.z(), change.volume_m3,
-             change.points, change.confidence.value, change.confidence.free, change.confidence.supported,
-             change.confidence.unknown);
+                  "INSERT INTO changes (comparison, place, site, scan, captured_at, watching, kind, centroid_x_m, "
+                  "centroid_y_m, centroid_z_m, min_x_m, min_y_m, min_z_m, max_x_m, max_y_m, max_z_m, box_pose, "
+                  "box_x_m, box_y_m, box_z_m, volume_m3, points, confidence, free, supported, unknown) VALUES "
+                  "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    row.bind(comparison.id, place, comparison.site, comparison.scan, captured_at, comparison.watching);
+    bind_change(row, change, box_pose);
     row.next();
   }
-  insert_bounds(database, ChangeId{database.last_id()}, comparison.site, change.bounds_m);
+  const ChangeId id{database.last_id()};
+  insert_bounds(database, id, comparison.site, change.bounds_m);
+  return id;
 }
 
 using Key = std::array<std::int64_t, 3>;  ///< captured_at, comparison, place
@@ -103,6 +88,7 @@ struct Query {
 std::string conditions(const ChangeFilter& filter) {
   std::string where;
   if (filter.site) where += "c.site = ?1 AND ";
+  if (!filter.comparison) where += filter.watching ? "c.watching = 1 AND " : "c.watching = 0 AND ";
   if (filter.comparison) where += "c.comparison = ?2 AND ";
   if (filter.kind) where += "c.kind = ?3 AND ";
   if (filter.min_volume_m3) where += "c.volume_m3 >= ?4 AND ";
@@ -152,12 +138,15 @@ std::string order(const ChangeFilter& filter) {
 
 }  // namespace
 
-void insert_changes(Transaction& transaction, const ComparisonRecord& comparison, const std::vector<Change>& changes) {
+std::vector<ChangeId> insert_changes(Transaction& transaction, const ComparisonRecord& comparison,
+                                     const std::vector<Change>& changes) {
   const Time captured_at = find_scan(transaction, comparison.scan).value().captured_at;
-  std::int64_t place = 0;
+  std::vector<ChangeId> ids;
   for (const Change& change : changes) {
-    insert_change(database_of(transaction), comparison, captured_at, place++, change);
+    const auto place = static_cast<std::int64_t>(ids.size());
+    ids.push_back(insert_change(database_of(transaction), comparison, captured_at, place, change));
   }
+  return ids;
 }
 
 Page<ChangeRecord> list_changes(const Snapshot& snapshot, const ChangeFilter& filter, const PageRequest& page) {
@@ -174,6 +163,20 @@ Page<ChangeRecord> list_changes(const Snapshot& snapshot, const ChangeFilter& fi
   std::vector<ChangeRecord> changes;
   while (rows.next()) changes.push_back(read_change(rows));
   return make_page(std::move(changes), page, kList, key_of);
+}
+
+void set_track(Transaction& transaction, ChangeId id, TrackId track) {
+  database_of(transaction).run("UPDATE changes SET track = ? WHERE id = ?", track, id);
+}
+
+std::vector<ChangeRecord> changes_of_track(const Snapshot& snapshot, TrackId track, ScanId scan) {
+  Statement rows(database_of(snapshot), "SELECT " + kColumns +
+                                            " FROM changes AS c INDEXED BY changes_by_track WHERE c.track = ? AND "
+                                            "c.scan = ? AND c.watching = 1 ORDER BY c.id");
+  rows.bind(track, scan);
+  std::vector<ChangeRecord> changes;
+  while (rows.next()) changes.push_back(read_change(rows));
+  return changes;
 }
 
 std::optional<ChangeRecord> find_change(const Snapshot& snapshot, ChangeId id) {

@@ -1,5 +1,6 @@
 #include "storage/columns.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -43,6 +44,7 @@ std::optional<double> get(const Json& json, const char* name) {
 
 struct ReferenceWriter {
   Json operator()(const PreviousReference&) const { return "previous"; }
+  Json operator()(const BaselineReference&) const { return "baseline"; }
   Json operator()(const WindowReference& window) const {
     return {{"from", window.from.time_since_epoch().count()}, {"to", window.to.time_since_epoch().count()}};
   }
@@ -54,6 +56,7 @@ struct ReferenceWriter {
 };
 
 Reference read_reference(const Json& json) {
+  if (json == "baseline") return BaselineReference{};
   if (json.is_string()) return PreviousReference{};
   if (!json.contains("scans")) {
     return WindowReference{Time(Duration(json.at("from").get<std::int64_t>())),
@@ -174,6 +177,84 @@ std::string timings_json(const std::map<std::string, double>& timings_ms) {
 
 std::map<std::string, double> timings_from_json(const std::string& text) {
   return parse(text, [](const Json& json) { return json.get<std::map<std::string, double>>(); });
+}
+
+BoxColumns box_columns(const std::optional<Eigen::AlignedBox3d>& box) {
+  BoxColumns columns;
+  if (!box) return columns;
+  for (int axis = 0; axis < 3; ++axis) {
+    columns.at(static_cast<std::size_t>(axis)) = box->min()[axis];
+    columns.at(static_cast<std::size_t>(axis) + 3) = box->max()[axis];
+  }
+  return columns;
+}
+
+Eigen::AlignedBox3d take_box(Statement& row) {
+  const Eigen::Vector3d low = take_vector(row);
+  return {low, take_vector(row)};
+}
+
+std::optional<Eigen::AlignedBox3d> take_optional_box(Statement& row) {
+  BoxColumns columns;
+  for (std::optional<double>& column : columns) column = row.take<std::optional<double>>();
+  const bool complete =
+      std::all_of(columns.begin(), columns.end(), [](const auto& column) { return column.has_value(); });
+  if (!complete) return std::nullopt;
+  return Eigen::AlignedBox3d(Eigen::Vector3d(*columns[0], *columns[1], *columns[2]),
+                             Eigen::Vector3d(*columns[3], *columns[4], *columns[5]));
+}
+
+std::string polygon_json(const std::vector<Eigen::Vector2d>& polygon) {
+  Json json = Json::array();
+  for (const Eigen::Vector2d& p : polygon) json.push_back({finite(p.x(), "polygon_m"), finite(p.y(), "polygon_m")});
+  return dump(json);
+}
+
+std::vector<Eigen::Vector2d> polygon_from_json(const std::string& text) {
+  return parse(text, [](const Json& json) {
+    std::vector<Eigen::Vector2d> polygon;
+    for (const Json& p : json) polygon.emplace_back(p.at(0).get<double>(), p.at(1).get<double>());
+    return polygon;
+  });
+}
+
+std::string rule_json(const Rule& rule) {
+  Json schedule = Json::array();
+  for (const ScheduleWindow& window : rule.schedule) {
+    schedule.push_back({{"days", window.days}, {"from", window.from_minute}, {"to", window.to_minute}});
+  }
+  return dump({{"added", rule.added},
+               {"removed", rule.removed},
+               {"min_points", rule.min_points},
+               {"min_volume_m3", finite(rule.min_volume_m3, "min_volume_m3")},
+               {"min_extent_m", finite(rule.min_extent_m, "min_extent_m")},
+               {"scans", rule.persistence.scans},
+               {"of", rule.persistence.of},
+               {"seconds", finite(rule.persistence.seconds, "persistence.seconds")},
+               {"severity", to_string(rule.severity)},
+               {"schedule", schedule},
+               {"enabled", rule.enabled},
+               {"auto_resolve", rule.auto_resolve}});
+}
+
+Rule rule_from_json(const std::string& text) {
+  return parse(text, [](const Json& json) {
+    Rule rule;
+    rule.added = json.value("added", rule.added);
+    rule.removed = json.value("removed", rule.removed);
+    rule.min_points = json.value("min_points", rule.min_points);
+    rule.min_volume_m3 = json.value("min_volume_m3", rule.min_volume_m3);
+    rule.min_extent_m = json.value("min_extent_m", rule.min_extent_m);
+    rule.persistence = {json.value("scans", 1u), json.value("of", 1u), json.value("seconds", 0.0)};
+    rule.severity = parse_severity(json.value("severity", std::string(to_string(rule.severity))));
+    for (const Json& window : json.value("schedule", Json::array())) {
+      rule.schedule.push_back({window.at("days").get<std::array<bool, 7>>(), window.at("from").get<std::uint16_t>(),
+                               window.at("to").get<std::uint16_t>()});
+    }
+    rule.enabled = json.value("enabled", rule.enabled);
+    rule.auto_resolve = json.value("auto_resolve", rule.auto_resolve);
+    return rule;
+  });
 }
 
 std::string texts_json(const std::vector<std::string>& texts) { return dump(Json(texts)); }

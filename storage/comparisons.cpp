@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::string_view kList = "comparisons";
 const std::string kSelect =
-    "SELECT id, scan, site, state, failure, reference, parameters, counts, testable, changes, timings_ms, warnings, "
+    "SELECT id, scan, site, state, failure, reference, parameters, watching, counts, testable, changes, timings_ms, "
+    "warnings, "
     "payload_file, payload_key, created_at, finished_at FROM comparisons ";
 
 std::vector<ComparisonPrior> priors_of(const Snapshot& snapshot, ComparisonId id) {
@@ -45,6 +46,7 @@ ComparisonRecord read_comparison(const Snapshot& snapshot, Statement& row) {
   comparison.failure = row.take<std::string>();
   comparison.reference = reference_from_json(row.take<std::string>());
   comparison.parameters = parameters_from_json(row.take<std::string>());
+  comparison.watching = row.take<bool>();
   comparison.counts = counts_from_json(row.take<std::string>());
   comparison.testable = row.take<double>();
   comparison.changes = row.take<std::uint64_t>();
@@ -95,15 +97,20 @@ void set_comparison_state(Transaction& transaction, ComparisonId id, ComparisonS
 
 void update_scan_state(Transaction& transaction, ScanId scan) {
   Statement rows(database_of(transaction),
-                 "SELECT state, failure FROM comparisons INDEXED BY comparisons_by_scan WHERE scan = ? ORDER BY id");
+                 "SELECT state, failure, watching FROM comparisons INDEXED BY comparisons_by_scan WHERE scan = ? "
+                 "ORDER BY id");
   rows.bind(scan);
   std::set<std::string, std::less<>> states;
   std::string last_failure;
+  bool watching_waits = false;
   while (rows.next()) {
-    states.insert(rows.take<std::string>());
+    std::string state = rows.take<std::string>();
     if (std::string why = rows.take<std::string>(); !why.empty()) last_failure = std::move(why);
+    watching_waits = watching_waits || (rows.take<bool>() && state == to_string(ComparisonState::queued));
+    states.insert(std::move(state));
   }
-  if (states.contains(to_string(ComparisonState::running)))
+  const bool half_done = watching_waits && states.size() > 1;
+  if (states.contains(to_string(ComparisonState::running)) || half_done)
     return set_scan_state(transaction, scan, ScanState::comparing);
   if (states.contains(to_string(ComparisonState::done))) return set_scan_state(transaction, scan, ScanState::compared);
   if (states.contains(to_string(ComparisonState::queued))) return set_scan_state(transaction, scan, ScanState::queued);
@@ -111,14 +118,16 @@ void update_scan_state(Transaction& transaction, ScanId scan) {
 }
 
 ComparisonRecord insert_comparison(Transaction& transaction, ScanId scan, const Reference& reference,
-                                   const CompareParameters& parameters, Time now) {
+                                   const CompareParameters& parameters, Time now, Watching watching) {
   transaction.impl().require_room_for_records();
   const std::optional<ScanRecord> record = find_scan(transaction, scan);
   if (!record) throw NotFound("there is no scan " + std::to_string(scan.value));
   Database& database = database_of(transaction);
   database.run(
-      "INSERT INTO comparisons (scan, site, state, reference, parameters, created_at) VALUES (?, ?, ?, ?, ?, ?)", scan,
-      record->site, to_string(ComparisonState::queued), reference_json(reference), parameters_json(parameters), now);
+      "INSERT INTO comparisons (scan, site, state, reference, parameters, watching, created_at) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?)",
+      scan, record->site, to_string(ComparisonState::queued), reference_json(reference), parameters_json(parameters),
+      watching == Watching::yes, now);
   const ComparisonId id{database.last_id()};
   database.run("INSERT INTO jobs (comparison, scan, site, captured_at, started, attempts) VALUES (?, ?, ?, ?, 0, 0)",
                id, scan, record->site, record->captured_at);

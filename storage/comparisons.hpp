@@ -22,6 +22,10 @@ namespace raywatch {
 struct PreviousReference {
   friend bool operator==(const PreviousReference&, const PreviousReference&) = default;
 };
+/// What is accepted as normal.
+struct BaselineReference {
+  friend bool operator==(const BaselineReference&, const BaselineReference&) = default;
+};
 struct WindowReference {
   Time from, to;  ///< from <= captured_at < to
   friend bool operator==(const WindowReference&, const WindowReference&) = default;
@@ -30,7 +34,7 @@ struct ExplicitReference {
   std::vector<ScanId> scans;
   friend bool operator==(const ExplicitReference&, const ExplicitReference&) = default;
 };
-using Reference = std::variant<PreviousReference, WindowReference, ExplicitReference>;
+using Reference = std::variant<PreviousReference, BaselineReference, WindowReference, ExplicitReference>;
 
 enum class ComparisonState : std::uint8_t { queued, running, done, failed };
 std::string_view to_string(ComparisonState state);
@@ -65,6 +69,7 @@ struct ComparisonRecord {
   std::string failure;
   Reference reference;
   CompareParameters parameters;
+  bool watching = false;  ///< tracks are kept by it: the comparison of an upload with the baseline
   std::vector<ComparisonPrior> priors;
   std::array<std::uint64_t, kPointClasses> counts{};
   double testable = 0.0;
@@ -84,6 +89,7 @@ struct ChangeRecord {
   ScanId scan;
   Time captured_at;        ///< of the scan
   std::int32_t place = 0;  ///< in its comparison; what `ComparisonPoints::change_of` refers to
+  std::optional<TrackId> track;
   Change change;
 };
 
@@ -96,9 +102,10 @@ struct Job {
   int attempts = 0;  ///< times that it was started
 };
 
+enum class Watching : bool { no, yes };
 /// Queues a comparison of a stored scan, with its job.
 ComparisonRecord insert_comparison(Transaction& transaction, ScanId scan, const Reference& reference,
-                                   const CompareParameters& parameters, Time now);
+                                   const CompareParameters& parameters, Time now, Watching watching = Watching::no);
 std::optional<ComparisonRecord> find_comparison(const Snapshot& snapshot, ComparisonId id);
 
 struct ComparisonFilter {
@@ -135,9 +142,10 @@ struct ComparisonResult {
   PayloadRef payload;
   std::optional<Registration> registration;  ///< of the scan, when this comparison's job refined its pose
 };
-/// Commits a result, the end of its job and the scan's state, once: a job that is already finished changes nothing and
-/// gives false (its payload is then without an owner).
-bool finish_job(Transaction& transaction, const Job& job, const ComparisonResult& result, Time now);
+/// Commits a result, the end of its job and the scan's state, once, and gives the ids of its changes: a job that is
+/// already finished changes nothing and gives nothing (its payload is then without an owner).
+std::optional<std::vector<ChangeId>> finish_job(Transaction& transaction, const Job& job,
+                                                const ComparisonResult& result, Time now);
 /// Ends a job without a result. The scan becomes `failed` when this was its only comparison.
 void fail_job(Transaction& transaction, const Job& job, std::string_view why, Time now);
 /// Puts a started job back (transient trouble such as a full disk); that start does not count as an attempt.
@@ -150,9 +158,13 @@ struct ChangeFilter {
   std::optional<Time> from, to;
   std::optional<Eigen::AlignedBox3d> box_m;  ///< local; needs `site`; changes whose bounds intersect it (R*Tree)
   std::optional<double> min_volume_m3;
+  bool watching = false;  ///< what lasts, by the watching comparisons; else all others. Ignored with `comparison`
 };
 /// Newest capture first, then by place in the comparison.
 Page<ChangeRecord> list_changes(const Snapshot& snapshot, const ChangeFilter& filter, const PageRequest& page);
 std::optional<ChangeRecord> find_change(const Snapshot& snapshot, ChangeId id);
+void set_track(Transaction& transaction, ChangeId id, TrackId track);
+/// All of a track that one scan showed in its watching comparison, by place.
+std::vector<ChangeRecord> changes_of_track(const Snapshot& snapshot, TrackId track, ScanId scan);
 
 }  // namespace raywatch

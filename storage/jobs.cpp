@@ -124,16 +124,18 @@ std::uint64_t requeue_started_jobs(Transaction& transaction) {
   return requeued;
 }
 
-bool finish_job(Transaction& transaction, const Job& job, const ComparisonResult& result, Time now) {
+std::optional<std::vector<ChangeId>> finish_job(Transaction& transaction, const Job& job,
+                                                const ComparisonResult& result, Time now) {
   transaction.impl().require_room_for_records();
-  if (!take_out(transaction, job)) return false;
+  if (!take_out(transaction, job)) return std::nullopt;
   update_result(transaction, job.comparison, result, now);
   insert_priors(transaction, job.comparison, result.priors);
   insert_candidates(transaction, job.comparison, result.candidates);
   if (result.registration) set_registration(transaction, job.scan, *result.registration);
-  insert_changes(transaction, find_comparison(transaction, job.comparison).value(), result.changes);
+  std::vector<ChangeId> changes =
+      insert_changes(transaction, find_comparison(transaction, job.comparison).value(), result.changes);
   set_states(transaction, job, ComparisonState::done);
-  return true;
+  return changes;
 }
 
 void fail_job(Transaction& transaction, const Job& job, std::string_view why, Time now) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "storage/baselines.hpp"
 #include "storage/columns.hpp"
 #include "storage/scan_rows.hpp"
 #include "storage/sensors.hpp"
@@ -32,18 +33,6 @@ void require_sensor_of_site(const Snapshot& snapshot, const ScanRecord& scan) {
   const std::optional<Sensor> sensor = find_sensor(snapshot, scan.sensor);
   if (!sensor) throw NotFound("there is no sensor " + std::to_string(scan.sensor.value));
   if (sensor->site != scan.site) throw Conflict("sensor \"" + sensor->name + "\" belongs to another site");
-}
-
-/// Coordinates up to this size keep a tenth of a millimetre in 32-bit floats well enough; larger ones, such as those of
-/// map projections, need an origin.
-constexpr double kFarFromZero_m = 10'000.0;
-
-Site with_origin(Transaction& transaction, const Site& site, const Eigen::Vector3d& position_m) {
-  if (site.origin_m) return site;
-  SiteEdit edit;
-  edit.origin_m =
-      position_m.norm() > kFarFromZero_m ? Eigen::Vector3d(position_m.array().round()) : Eigen::Vector3d::Zero();
-  return edit_site(transaction, site.id, edit);
 }
 
 /// The stored scan of the same sensor and time, if it has the same bytes.
@@ -91,6 +80,7 @@ void require_deletable(const Snapshot& snapshot, const ScanRecord& scan) {
   const auto user = database.find<std::int64_t>(
       "SELECT comparison FROM comparison_priors INDEXED BY comparison_priors_by_scan WHERE scan = ? LIMIT 1", scan.id);
   if (user) throw Conflict(name + " is a prior of comparison " + std::to_string(*user));
+  if (is_in_baseline(snapshot, scan.id)) throw Conflict(name + " is part of the baseline of its site");
 }
 
 void delete_comparison(Transaction& transaction, ComparisonId id) {
@@ -183,7 +173,7 @@ ScanRecord insert_scan(Transaction& transaction, ScanRecord scan) {
   require_finite(scan.pose);
   require_sensor_of_site(transaction, scan);
   if (std::optional<ScanRecord> stored = same_scan(transaction, scan)) return std::move(*stored);
-  const Site site = with_origin(transaction, site_of(transaction, scan), scan.pose.position_m);
+  const Site site = fix_origin(transaction, site_of(transaction, scan), scan.pose.position_m);
   const VantageId vantage = vantage_for_scan(transaction, scan.site, local_pose(scan, site).position_m);
   const ScanId id = insert_row(transaction, scan, vantage);
   add_scan_to_vantage(transaction, vantage, scan.captured_at);

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "storage/migrations.hpp"
+#include "storage/watch_schema.hpp"
 
 namespace raywatch {
 namespace {
@@ -200,7 +201,7 @@ CREATE TABLE chunks (
 ) STRICT;
 )sql";
 
-constexpr std::array kMetadataSteps{kMetadata1, kMetadata2};
+constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3};
 constexpr std::array kPayloadSteps{kPayload1};
 
 }  // namespace

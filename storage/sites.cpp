@@ -51,8 +51,23 @@ std::optional<double> coordinate(const std::optional<Eigen::Vector3d>& place, in
   return place ? std::optional((*place)[axis]) : std::nullopt;
 }
 
-bool has_scans(const Snapshot& snapshot, SiteId id) {
-  return database_of(snapshot).find<int>("SELECT 1 FROM scans WHERE site = ? LIMIT 1", id).has_value();
+bool has_places(const Snapshot& snapshot, SiteId id) {
+  Database& database = database_of(snapshot);
+  return database.find<int>("SELECT 1 FROM scans WHERE site = ? LIMIT 1", id).has_value() ||
+         database.find<int>("SELECT 1 FROM zones WHERE site = ? LIMIT 1", id).has_value();
+}
+
+/// Without sensors nothing of it can be asked any more but by its id.
+void delete_what_was_watched(Database& database, SiteId id) {
+  for (const char* part : {"sight_runs WHERE track IN (SELECT id FROM tracks WHERE site = ?)",
+                           "zone_coverage WHERE zone IN (SELECT id FROM zones WHERE site = ?)",
+                           "alert_steps WHERE alert IN (SELECT id FROM alerts WHERE site = ?)"}) {
+    database.run(std::string("DELETE FROM ") + part, id);
+  }
+  for (const char* table :
+       {"tracks", "watched_scans", "alerts", "silences", "rules", "zones", "baseline_entries", "baselines"}) {
+    database.run(std::string("DELETE FROM ") + table + " WHERE site = ?", id);
+  }
 }
 
 }  // namespace
@@ -86,7 +101,7 @@ Page<Site> list_sites(const Snapshot& snapshot, const PageRequest& page) {
 
 Site edit_site(Transaction& transaction, SiteId id, const SiteEdit& edit) {
   Site site = existing(transaction, id);
-  if (edit.origin_m && edit.origin_m != site.origin_m && has_scans(transaction, id)) {
+  if (edit.origin_m && edit.origin_m != site.origin_m && has_places(transaction, id)) {
     throw Conflict("the origin of site \"" + site.name + "\" is fixed: what is stored is relative to it");
   }
   if (edit.time_zone) site.time_zone = *edit.time_zone;
@@ -102,11 +117,23 @@ Site edit_site(Transaction& transaction, SiteId id, const SiteEdit& edit) {
   return site;
 }
 
+/// Coordinates up to this size keep a tenth of a millimetre in 32-bit floats well enough; larger ones, such as those of
+/// map projections, need an origin.
+constexpr double kFarFromZero_m = 10'000.0;
+
+Site fix_origin(Transaction& transaction, const Site& site, const Eigen::Vector3d& place_m) {
+  if (site.origin_m) return site;
+  SiteEdit edit;
+  edit.origin_m = place_m.norm() > kFarFromZero_m ? Eigen::Vector3d(place_m.array().round()) : Eigen::Vector3d::Zero();
+  return edit_site(transaction, site.id, edit);
+}
+
 void delete_site(Transaction& transaction, SiteId id) {
   const Site site = existing(transaction, id);
   if (database_of(transaction).find<int>("SELECT 1 FROM sensors WHERE site = ? LIMIT 1", id)) {
     throw Conflict("site \"" + site.name + "\" still has sensors");
   }
+  delete_what_was_watched(database_of(transaction), id);
   database_of(transaction).run("DELETE FROM sites WHERE id = ?", id);
 }
 

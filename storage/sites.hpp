@@ -30,7 +30,7 @@ struct SiteEdit {
   std::optional<std::string> time_zone;
   std::optional<Profile> profile;
   std::optional<int> epsg;
-  std::optional<Eigen::Vector3d> origin_m;  ///< refused (Conflict) once the site has scans
+  std::optional<Eigen::Vector3d> origin_m;  ///< refused (Conflict) once the site has scans or zones
 };
 
 /// `id` and `created_at` of the argument are ignored. @throws Conflict when the name is taken.
@@ -39,6 +39,9 @@ std::optional<Site> find_site(const Snapshot& snapshot, std::string_view name);
 std::optional<Site> find_site(const Snapshot& snapshot, SiteId id);
 Page<Site> list_sites(const Snapshot& snapshot, const PageRequest& page);
 Site edit_site(Transaction& transaction, SiteId id, const SiteEdit& edit);
+/// The site with an origin: if it has none, the place rounded to whole metres when that is farther than 10 km from
+/// zero, else zero.
+Site fix_origin(Transaction& transaction, const Site& site, const Eigen::Vector3d& place_m);
 /// @throws Conflict while the site has sensors.
 void delete_site(Transaction& transaction, SiteId id);
 

@@ -5,6 +5,7 @@
 #include "storage/migrations.hpp"
 #include "storage/payloads_impl.hpp"
 #include "storage/reader_pool.hpp"
+#include "storage/signal.hpp"
 #include "storage/snapshot.hpp"
 #include "storage/sweep.hpp"
 #include "storage/writer_thread.hpp"
@@ -52,6 +53,7 @@ struct Store::Impl {
   PayloadFiles files;
   OpenReport report;
   std::unique_ptr<Database> metadata;  // the writing connection: only on the writer thread
+  Signal committed;
   WriterThread writer;
   std::unique_ptr<ReaderPool> readers;
   Payloads payloads;
@@ -125,7 +127,10 @@ void Store::write_erased(const std::function<void(Transaction&)>& f) {
       f(transaction);
     });
   });
+  impl_->committed.notify();
 }
+
+Signal& Store::commits() { return impl_->committed; }
 
 Payloads& Store::payloads() { return impl_->payloads; }
 

@@ -13,6 +13,7 @@
 namespace raywatch {
 
 class Payloads;
+class Signal;
 struct OpenReport;
 
 /// A read-only view of the metadata at one moment: everything read through one snapshot is consistent. Used by the
@@ -89,6 +90,9 @@ class Store {
       return std::move(*result);
     }
   }
+
+  /// Says after each commit of the metadata that there was one.
+  Signal& commits();
 
   /// Points and point classes. Put there first, then committed to the metadata by reference.
   Payloads& payloads();

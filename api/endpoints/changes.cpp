@@ -14,6 +14,13 @@ ChangeKind parse_kind(const std::string& name) {
   throw InvalidInput("must be added, removed or discrepancy");
 }
 
+/// Which comparisons' changes are listed: what just happened, or what lasts.
+bool parse_lasting(const std::string& name) {
+  if (name == "previous") return false;
+  if (name == "baseline") return true;
+  throw InvalidInput("must be previous or baseline");
+}
+
 Json list(const Snapshot& snapshot, const ChangeFilter& filter, const PageRequest& page) {
   return render_page(raywatch::list_changes(snapshot, filter, page),
                      [&](const ChangeRecord& change) { return render(snapshot, change); });
@@ -25,6 +32,7 @@ HttpAnswer list_changes(Call& call) {
   ChangeFilter filter;
   const auto site_name = call.query.text("site");
   filter.kind = call.query.parsed("kind", parse_kind);
+  filter.watching = call.query.parsed("reference", parse_lasting).value_or(false);
   filter.from = call.query.time("from");
   filter.to = call.query.time("to");
   filter.min_volume_m3 = call.query.real("min_volume_m3", {.min = 0.0});

@@ -6,6 +6,7 @@
 #include "api/lookup.hpp"
 #include "api/units.hpp"
 #include "core/profile.hpp"
+#include "storage/baselines.hpp"
 
 namespace raywatch::endpoints {
 namespace {
@@ -54,11 +55,9 @@ CompareParameters parse_parameters(JsonObject& body, Profile profile) {
 }
 
 Reference parse_named_reference(JsonObject& body, const std::string& name) {
-  if (name == "baseline") {
-    body.fail("reference", "the site has no baseline");
-  } else if (name != "previous") {
-    body.fail("reference", R"(must be "previous", {"from", "to"} or {"scans": [...]})");
-  }
+  if (name == "baseline") return BaselineReference{};
+  if (name != "previous")
+    body.fail("reference", R"(must be "previous", "baseline", {"from", "to"} or {"scans": [...]})");
   return PreviousReference{};
 }
 
@@ -101,6 +100,11 @@ Reference parse_reference(JsonObject& body) {
 
 /// What an explicit reference names must be there, in the same site, and not the compared scan.
 void check_scans(const Snapshot& snapshot, const ScanRecord& scan, const Reference& reference, FieldErrors& errors) {
+  if (std::holds_alternative<BaselineReference>(reference)) {
+    const auto latest = latest_baseline(snapshot, scan.site);
+    const bool is_empty = !latest || baseline_entries(snapshot, scan.site, latest->version).empty();
+    if (is_empty) errors.add("reference", "the site has no baseline");
+  }
   const auto* scans = std::get_if<ExplicitReference>(&reference);
   if (scans == nullptr) return;
   for (const ScanId id : scans->scans) {

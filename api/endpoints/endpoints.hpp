@@ -46,6 +46,42 @@ HttpAnswer get_comparison_points(Call& call);
 HttpAnswer list_changes(Call& call);
 HttpAnswer get_change(Call& call);
 
+HttpAnswer create_zone(Call& call);
+HttpAnswer list_zones(Call& call);
+HttpAnswer get_zone(Call& call);
+HttpAnswer replace_zone(Call& call);
+HttpAnswer delete_zone(Call& call);
+HttpAnswer list_zone_coverage(Call& call);
+
+HttpAnswer create_rule(Call& call);
+HttpAnswer list_rules(Call& call);
+HttpAnswer get_rule(Call& call);
+HttpAnswer replace_rule(Call& call);
+HttpAnswer delete_rule(Call& call);
+HttpAnswer test_rule(Call& call);
+
+HttpAnswer create_silence(Call& call);
+HttpAnswer list_silences(Call& call);
+HttpAnswer delete_silence(Call& call);
+
+HttpAnswer list_tracks(Call& call);
+HttpAnswer get_track(Call& call);
+
+HttpAnswer list_alerts(Call& call);
+HttpAnswer get_alert(Call& call);
+HttpAnswer acknowledge_alert(Call& call);
+HttpAnswer resolve_alert(Call& call);
+HttpAnswer snooze_alert(Call& call);
+HttpAnswer accept_alert(Call& call);
+
+HttpAnswer list_baselines(Call& call);
+HttpAnswer accept_baseline(Call& call);
+
+HttpAnswer get_history(Call& call);
+
+HttpAnswer stream_events(Call& call);
+HttpAnswer list_events(Call& call);
+
 HttpAnswer create_backup(Call& call);
 
 }  // namespace raywatch::endpoints

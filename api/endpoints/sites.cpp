@@ -8,6 +8,7 @@
 #include "api/lookup.hpp"
 #include "api/name_rules.hpp"
 #include "api/render.hpp"
+#include "storage/rules.hpp"
 
 namespace raywatch::endpoints {
 namespace {
@@ -57,8 +58,11 @@ HttpAnswer create_site(Call& call) {
   call.query.finish();
   const Site site = parse_site(json_body(call));
   const Time now = call.services.now();
-  const Site stored =
-      call.services.store.write([&](Transaction& transaction) { return insert_site(transaction, site, now); });
+  const Site stored = call.services.store.write([&](Transaction& transaction) {
+    Site made = insert_site(transaction, site, now);
+    insert_rule(transaction, default_rule(made.id, made.profile), now);
+    return made;
+  });
   HttpAnswer answer = with_body_tag(json_answer(render(stored), 201), std::nullopt);
   answer.set_header("Location", "/api/v1/sites/" + percent_encoded(stored.name));
   return answer;

@@ -127,8 +127,8 @@ TEST_CASE("a stored scan is compared again with named scans and parameters") {
   CHECK_EQ(done["counts"]["added"], static_cast<int>(box_points()));
   const json scan = api.get("/api/v1/scans/" + with_box["id"].dump()).json();
   CHECK_EQ(scan["comparison"], with_box["comparison"]);
-  CHECK_EQ(scan["comparisons"].size(), 2);
-  CHECK_EQ(api.get("/api/v1/comparisons?scan=" + with_box["id"].dump()).json()["items"].size(), 2);
+  CHECK_EQ(scan["comparisons"].size(), 3);
+  CHECK_EQ(api.get("/api/v1/comparisons?scan=" + with_box["id"].dump()).json()["items"].size(), 3);
   CHECK_EQ(api.get("/api/v1/comparisons?state=failed").json()["items"], json::array());
   CHECK_EQ(api.get("/api/v1/comparisons?site=yard&limit=1").json()["items"][0]["id"], done["id"]);
 }
@@ -155,6 +155,7 @@ TEST_CASE("what is wrong with a comparison's request is said for all of it at on
   api.make_site_and_sensor();
   const json scan = api.upload(0)["id"];
   const auto post = [&](const json& body) { return api.post("/api/v1/comparisons", body); };
+  api.post("/api/v1/baselines/yard/accept", {{"by", "anna"}, {"mode", "learn"}});
   CHECK_EQ(post({{"scan", scan}, {"reference", "baseline"}}).complaint_about("reference"), "the site has no baseline");
   const Reply parameters = post({{"scan", scan},
                                  {"parameters",
@@ -193,7 +194,21 @@ TEST_CASE("what is wrong with a comparison's request is said for all of it at on
   CHECK_EQ(post({{"scan", 99}}).status, 404);
   CHECK_EQ(post({{"scan", "1"}}).complaint_about("scan"), "must be a whole number");
   CHECK_EQ(post(json::object()).complaint_about("scan"), "is required");
-  CHECK_EQ(api.get("/api/v1/comparisons").json()["items"].size(), 1);
+  CHECK_EQ(api.get("/api/v1/comparisons").json()["items"].size(), 2);
+}
+
+TEST_CASE("a stored scan is compared with what is normal, and that moves no track") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  for (int i = 0; i < 3; ++i) api.upload(i);
+  const json with_box = api.upload(3, {.box = true});
+  const Reply queued = api.post("/api/v1/comparisons", {{"scan", with_box["id"]}, {"reference", "baseline"}});
+  REQUIRE_EQ(queued.status, 202);
+  const json done = wait_until_done(api, queued.json());
+  CHECK_EQ(done["reference"], "baseline");
+  CHECK_EQ(done["changes"], 1);
+  CHECK_FALSE(done["priors"].empty());
+  CHECK_EQ(api.get("/api/v1/tracks").json()["items"][0]["seen"], 1);
 }
 
 TEST_CASE("scans of different sites are not compared") {

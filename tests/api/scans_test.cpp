@@ -110,6 +110,16 @@ TEST_CASE("a scan that is a prior of another is not deleted") {
   CHECK_EQ(api.remove(target_of(first)).status, 204);
 }
 
+TEST_CASE("a scan that is deleted is not normal any more") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  CHECK_EQ(api.remove(target_of(api.upload(0))).status, 204);
+  const json versions = api.get("/api/v1/baselines?site=yard").json()["items"];
+  REQUIRE_EQ(versions.size(), 2);
+  CHECK_EQ(versions[0]["kind"], "withdrawn");
+  CHECK_EQ(versions[0]["entries"].size(), 0);
+}
+
 TEST_CASE("what is no id names no scan") {
   ApiFixture api;
   for (const char* id : {"1", "0", "-1", "abc", "1e3", "99999999999999999999", "1%20"}) {

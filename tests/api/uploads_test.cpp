@@ -52,9 +52,10 @@ TEST_CASE("with Prefer: wait the answer comes after the comparison and says so")
   CHECK_EQ(reply.header("Preference-Applied"), "wait=50");
   const json scan = reply.json();
   CHECK_EQ(scan["state"], "compared");
-  REQUIRE_EQ(scan["comparisons"].size(), 1);
+  REQUIRE_EQ(scan["comparisons"].size(), 2);
   CHECK_EQ(scan["comparisons"][0]["id"], scan["comparison"]);
   CHECK_EQ(scan["comparisons"][0]["reference"], "previous");
+  CHECK_EQ(scan["comparisons"][1]["reference"], "baseline");
 }
 
 TEST_CASE("a wait is bounded, and one that is not understood is ignored") {

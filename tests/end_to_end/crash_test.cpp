@@ -93,7 +93,7 @@ TEST_CASE("after kill -9 at any moment every scan that was answered with 201 is 
   // Those that were stored but whose answer was lost are whole as well.
   for (const json& scan : scans) {
     CHECK(scan["state"] == "compared");
-    REQUIRE(scan["comparisons"].size() == 1);
+    REQUIRE(scan["comparisons"].size() == 2);
     const json comparison = api.get("/api/v1/comparisons/" + scan["comparison"].dump()).json();
     CHECK(comparison["state"] == "done");
     const json changes =

@@ -15,7 +15,10 @@ using namespace raywatch::simulator;
 PlaceScan scan_place(const PlaceState& state, int number) {
   WallAndBox layout{.wall_distance_m = 10.0};
   if (state.box) layout.box_center_m = Eigen::Vector3d(5.0, 0.0, 0.0);
-  const Scene scene = wall_and_box(layout);
+  Scene scene = wall_and_box(layout);
+  if (state.person_y_m) {
+    scene.add(Box{{Eigen::Quaterniond::Identity(), {7.0, *state.person_y_m, 0.0}}, {0.3, 0.3, 0.9}}, kBoxState + 1);
+  }
   Scanner scanner = grid_scanner({.lowest_elevation_rad = radians(-15.0), .highest_elevation_rad = radians(15.0)});
   scanner.max_range_m = 20.0;
   scanner.errors.range_noise_m = 0.002;  // no two scans have the same bytes

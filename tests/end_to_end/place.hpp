@@ -13,7 +13,8 @@ namespace raywatch::test {
 
 /// What stands before the wall of the place that the tests scan.
 struct PlaceState {
-  bool box = false;  ///< a cube of 1 m, 5 m before the scanner
+  bool box = false;                       ///< a cube of 1 m, 5 m before the scanner
+  std::optional<double> person_y_m = {};  ///< somebody 0.6 m wide and 1.8 m high, 7 m before it
 };
 inline const Eigen::Vector3d kBoxFaceCenter_m{4.5, 0.0, 0.0};  ///< of the side that faces the scanner
 inline constexpr std::size_t kBoxPoints = 13 * 13;             ///< returns of a grid of 1 degree from that side

@@ -7,9 +7,9 @@
 
 namespace raywatch {
 
-/// Says that jobs were queued or ended, to workers that look for one and to requests that wait for one to end. Whoever
-/// waits reads the generation first, looks, and then waits for a later one, so that nothing is missed. Thread-safe.
-class JobSignal {
+/// Says that something happened to whoever waits for it: jobs that were queued or ended, commits. Whoever waits reads
+/// the generation first, looks, and then waits for a later one, so that nothing is missed. Thread-safe.
+class Signal {
  public:
   using Clock = std::chrono::steady_clock;
 
@@ -19,6 +19,7 @@ class JobSignal {
   bool wait_past(std::uint64_t seen, Clock::time_point deadline);
   /// Nobody waits from now on.
   void close();
+  bool is_closed() const;
 
  private:
   mutable std::mutex mutex_;

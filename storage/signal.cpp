@@ -1,25 +1,30 @@
-#include "server/job_signal.hpp"
+#include "storage/signal.hpp"
 
 namespace raywatch {
 
-std::uint64_t JobSignal::generation() const {
+std::uint64_t Signal::generation() const {
   const std::lock_guard lock(mutex_);
   return generation_;
 }
 
-void JobSignal::notify() {
+void Signal::notify() {
   const std::lock_guard lock(mutex_);
   ++generation_;
   changed_.notify_all();
 }
 
-bool JobSignal::wait_past(std::uint64_t seen, Clock::time_point deadline) {
+bool Signal::wait_past(std::uint64_t seen, Clock::time_point deadline) {
   std::unique_lock lock(mutex_);
   changed_.wait_until(lock, deadline, [&] { return closed_ || generation_ > seen; });
   return !closed_ && generation_ > seen;
 }
 
-void JobSignal::close() {
+bool Signal::is_closed() const {
+  const std::lock_guard lock(mutex_);
+  return closed_;
+}
+
+void Signal::close() {
   const std::lock_guard lock(mutex_);
   closed_ = true;
   changed_.notify_all();

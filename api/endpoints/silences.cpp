@@ -1,0 +1,82 @@
+#include "api/call.hpp"
+#include "api/endpoints/endpoints.hpp"
+#include "api/json_body.hpp"
+#include "api/json_object.hpp"
+#include "api/lookup.hpp"
+#include "api/name_rules.hpp"
+#include "api/render.hpp"
+#include "storage/rules.hpp"
+
+namespace raywatch::endpoints {
+namespace {
+
+struct GivenSilence {
+  std::string site;
+  std::optional<std::string> sensor;
+  std::optional<ZoneId> zone;
+  std::optional<Time> from;
+  Time until;
+  std::string by, note;
+};
+
+GivenSilence parse_silence(const nlohmann::json& json) {
+  FieldErrors errors;
+  JsonObject body(json, "", errors);
+  GivenSilence given;
+  for (const char* name : {"site", "until", "by"}) body.require(name);
+  given.site = body.text("site").value_or("");
+  given.sensor = body.text("sensor");
+  if (const auto zone = body.integer("zone", {.min = 1})) given.zone = ZoneId{*zone};
+  given.from = body.time("from");
+  given.until = body.time("until").value_or(Time{});
+  given.by = body.parsed("by", checked_actor).value_or("");
+  given.note = body.parsed("note", checked_note).value_or("");
+  if (given.from && *given.from >= given.until) body.fail("until", "must be later than 'from'");
+  body.finish();
+  errors.throw_if_any();
+  return given;
+}
+
+}  // namespace
+
+HttpAnswer create_silence(Call& call) {
+  call.query.finish();
+  const GivenSilence given = parse_silence(json_body(call));
+  const Time now = call.services.now();
+  const Time from = given.from.value_or(now);
+  if (from >= given.until) throw InvalidInput("The silence is over.", {{"until", "must lie in the future"}});
+  const Json json = call.services.store.write([&](Transaction& transaction) {
+    SilenceRecord record{.site = site_named(transaction, given.site).id, .by = given.by, .note = given.note};
+    record.silence = {.zone = given.zone, .from = from, .until = given.until};
+    if (given.sensor) record.silence.sensor = sensor_named(transaction, *given.sensor).id;
+    if (given.zone && zone_with(transaction, *given.zone).site != record.site) {
+      throw InvalidInput("The zone is of another site.", {{"zone", "is of another site"}});
+    }
+    return render(transaction, insert_silence(transaction, record, now));
+  });
+  HttpAnswer answer = json_answer(json, 201);
+  answer.set_header("Location", "/api/v1/silences/" + json["id"].dump());
+  return answer;
+}
+
+HttpAnswer list_silences(Call& call) {
+  const auto site_name = call.query.text("site");
+  const PageRequest page = call.query.page();
+  call.query.finish();
+  return json_answer(call.services.store.read([&](const Snapshot& snapshot) {
+    std::optional<SiteId> site;
+    if (site_name) site = site_named(snapshot, *site_name).id;
+    return render_page(raywatch::list_silences(snapshot, site, page),
+                       [&](const SilenceRecord& silence) { return render(snapshot, silence); });
+  }));
+}
+
+HttpAnswer delete_silence(Call& call) {
+  call.query.finish();
+  const auto id = id_in_path<SilenceId>(call.path[0]);
+  call.services.store.write(
+      [&](Transaction& transaction) { raywatch::delete_silence(transaction, silence_with(transaction, id).id); });
+  return {.status = 204};
+}
+
+}  // namespace raywatch::endpoints

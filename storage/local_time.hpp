@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "core/schedule.hpp"
+#include "core/time.hpp"
+
+namespace raywatch {
+
+/// The moment as clocks of a time zone show it, by the time zone data of this machine.
+/// @param time_zone IANA name. @throws InvalidInput when it is not known here.
+LocalMoment local_moment(Time time, const std::string& time_zone);
+
+}  // namespace raywatch

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <sys/socket.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace raywatch::testing {
+
+/// A client of the stream of events, as a browser is one. The stream stands when the constructor returns.
+class EventListener {
+ public:
+  EventListener(std::uint16_t port, const std::string& query, const std::string& last_event_id = "");
+  ~EventListener();
+  EventListener(const EventListener&) = delete;
+  EventListener& operator=(const EventListener&) = delete;
+
+  /// Waits for so many events. @returns what they say, each checked to be of the id and type that stand beside it.
+  nlohmann::json take(std::size_t count);
+
+ private:
+  /// The next line of the stream; what the chunks of HTTP add is left out.
+  std::string line();
+
+  int socket_ = -1;
+  std::string received_;
+};
+
+}  // namespace raywatch::testing
