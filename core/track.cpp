@@ -146,13 +146,12 @@ std::vector<std::vector<std::size_t>> group_fragments(std::span<const Change> ch
   return groups;
 }
 
+double size_difference_m(const OrientedBox& a, const OrientedBox& b) { return (a.size_m - b.size_m).cwiseAbs().sum(); }
+
 bool are_alike(const OrientedBox& a, const OrientedBox& b) {
-  constexpr double kAgree_m = 0.15, kAgree = 0.35;
-  Eigen::Vector3d one = a.size_m, other = b.size_m;
-  std::sort(one.data(), one.data() + 3);
-  std::sort(other.data(), other.data() + 3);
-  const Eigen::Array3d difference_m = (one - other).array().abs();
-  return (difference_m <= (kAgree * one.cwiseMax(other).array()).max(kAgree_m)).all();
+  constexpr double kAgree_m = 0.15, kAgree = 0.3;
+  const Eigen::Array3d difference_m = (a.size_m - b.size_m).array().abs();
+  return (difference_m <= (kAgree * a.size_m.cwiseMax(b.size_m).array()).max(kAgree_m)).all();
 }
 
 }  // namespace raywatch

@@ -81,7 +81,9 @@ std::vector<std::optional<std::size_t>> associate(std::span<const Track> tracks,
 std::vector<std::vector<std::size_t>> group_fragments(std::span<const Change> changes,
                                                       std::span<const std::size_t> places);
 
-/// Whether two boxes may be of one object that was moved: each of the three sides, by length, agrees.
+/// How much two boxes differ in their long and short horizontal sides and in their height, together.
+double size_difference_m(const OrientedBox& a, const OrientedBox& b);
+/// Whether two boxes may be of one object that was moved and perhaps turned, but not tipped over: each side agrees.
 bool are_alike(const OrientedBox& a, const OrientedBox& b);
 
 }  // namespace raywatch

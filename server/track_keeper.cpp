@@ -38,14 +38,6 @@ std::string opening_note(const Track& track, const Rule& rule) {
   return text;
 }
 
-/// How much two boxes differ in their three sides, by length.
-double difference_m(const OrientedBox& a, const OrientedBox& b) {
-  Eigen::Vector3d one = a.size_m, other = b.size_m;
-  std::sort(one.data(), one.data() + 3);
-  std::sort(other.data(), other.data() + 3);
-  return (one - other).cwiseAbs().sum();
-}
-
 }  // namespace
 
 void TrackKeeper::run() {
@@ -125,8 +117,8 @@ void TrackKeeper::link_to_other_place(const TrackRecord& record) {
         !are_alike(other.track.latest.box, track.latest.box)) {
       continue;
     }
-    if (best == nullptr || difference_m(other.track.latest.box, track.latest.box) <
-                               difference_m(best->track.latest.box, track.latest.box)) {
+    if (best == nullptr || size_difference_m(other.track.latest.box, track.latest.box) <
+                               size_difference_m(best->track.latest.box, track.latest.box)) {
       best = &other;
     }
   }

@@ -57,6 +57,36 @@ void report_scan(Transaction& transaction, const WatchedComparison& watched, Wat
   }
 }
 
+/// Told when two scans of a place in a row judge less than half of what its first ones did: it may be covered.
+void report_coverage(Transaction& transaction, const WatchedComparison& watched, Time now) {
+  constexpr std::size_t kFirst = 3, kLast = 2;
+  constexpr double kLeastUsual = 0.1, kDropped = 0.5, kBack = 0.7;
+  for (const Zone& zone : zones_of(transaction, watched.site.id)) {
+    std::vector<double> first = first_coverage(transaction, zone.id, watched.scan.vantage, kFirst);
+    const std::vector<double> last = last_coverage(transaction, zone.id, watched.scan.vantage, kLast);
+    if (first.size() < kFirst) continue;
+    std::ranges::sort(first);
+    const double usual = first[kFirst / 2];
+    const std::string name = find_zone(transaction, zone.id)->name;
+    const SystemSubject subject{.site = watched.site.id,
+                                .cause = "coverage-dropped",
+                                .subject = name + " from " + std::to_string(watched.scan.vantage.value),
+                                .zone = zone.id,
+                                .sensor = watched.scan.sensor};
+    if (usual >= kLeastUsual && std::ranges::all_of(last, [&](double share) { return share < kDropped * usual; })) {
+      raise_system_alert(
+          transaction, subject,
+          {.severity = Severity::warning,
+           .scan = watched.scan.id,
+           .at = now,
+           .title = "Sensor " + sensor_name(transaction, watched.scan.sensor) +
+                    " sees less than half as much of zone " + name + " as usual: it may be covered or blocked."});
+    } else if (last.front() >= kBack * usual) {
+      settle_system_alert(transaction, subject, "It sees the zone again.", watched.scan.id, now);
+    }
+  }
+}
+
 void report_control_zones(Transaction& transaction, const WatchedComparison& watched, WatchRole role, Time now) {
   if (role != WatchRole::suspect && role != WatchRole::tracked) return;
   const std::optional<ZoneRecord> disturbed = disturbed_zone(transaction, watched);
@@ -157,6 +187,7 @@ void Watcher::commit(Transaction& transaction, const WatchedComparison& watched,
   report_scan(transaction, watched, turn.role, now);
   report_control_zones(transaction, watched, turn.role, now);
   if (turn.role != WatchRole::tracked) return;
+  report_coverage(transaction, watched, now);
   TrackKeeper(transaction, watched, turn, glance, {.moved_within = config_.moved_within, .now = now}).run();
 }
 

@@ -21,10 +21,10 @@ struct WatchConfig {
   /// A scan from a new vantage learns when what is normal already tells about less than this share of its points;
   /// otherwise it is judged by that.
   double learn_below_testable = 0.8;
-  Duration late_tolerance = std::chrono::seconds(2);  ///< sensors of one site may be so far behind each other
-  Duration moved_within = std::chrono::minutes(10);   ///< an object is missed here and found there within this time
-  std::size_t sample_points = 64;                     ///< points of a change that later scans are asked about
-  std::size_t coverage_places = 500;                  ///< places in a zone about which each scan is asked
+  std::chrono::seconds late_tolerance{2};  ///< sensors of one site may be so far behind each other
+  std::chrono::seconds moved_within{600};  ///< an object is missed here and found there within this time
+  std::size_t sample_points = 64;          ///< points of a change that later scans are asked about
+  std::size_t coverage_places = 500;       ///< places in a zone about which each scan is asked
 };
 
 /// What a scan is asked about: the places of tracks and the zones of its site.

@@ -85,6 +85,10 @@ std::vector<Zone> zones_of(const Snapshot& snapshot, SiteId site) {
 ZoneRecord replace_zone(Transaction& transaction, const ZoneRecord& zone, Time now) {
   require_free_name(transaction, zone);
   const Prism& prism = zone.zone.prism;
+  const ZoneRecord before = find_zone(transaction, zone.zone.id).value();
+  const bool same = prism.polygon_m == before.zone.prism.polygon_m && prism.z_min_m == before.zone.prism.z_min_m &&
+                    prism.z_max_m == before.zone.prism.z_max_m;
+  if (!same) database_of(transaction).run("DELETE FROM zone_coverage WHERE zone = ?", zone.zone.id);
   database_of(transaction)
       .run("UPDATE zones SET name = ?, kind = ?, polygon = ?, z_min_m = ?, z_max_m = ?, edited_at = ? WHERE id = ?",
            zone.name, to_string(zone.zone.kind), polygon_json(prism.polygon_m), prism.z_min_m, prism.z_max_m, now,
@@ -105,6 +109,32 @@ void delete_zone(Transaction& transaction, ZoneId id) {
 
 void insert_coverage(Transaction& transaction, ZoneId zone, std::int64_t turn, double share) {
   database_of(transaction).run("INSERT INTO zone_coverage VALUES (?, ?, ?)", zone, turn, share);
+}
+
+namespace {
+
+std::vector<double> coverage_from(const Snapshot& snapshot, std::string_view order, ZoneId zone, VantageId vantage,
+                                  std::size_t count) {
+  // Before the first coverage of the zone there are none to be found.
+  Statement rows(database_of(snapshot),
+                 "SELECT c.share FROM watched_scans AS w INDEXED BY watched_scans_by_vantage CROSS JOIN zone_coverage "
+                 "AS c ON c.zone = ?1 AND c.turn = w.turn WHERE w.vantage = ?2 AND w.role = 'tracked' AND "
+                 "w.turn >= (SELECT min(turn) FROM zone_coverage WHERE zone = ?1) ORDER BY w.turn " +
+                     std::string(order) + " LIMIT ?3");
+  rows.bind(zone, vantage, count);
+  std::vector<double> shares;
+  while (rows.next()) shares.push_back(rows.take<double>());
+  return shares;
+}
+
+}  // namespace
+
+std::vector<double> first_coverage(const Snapshot& snapshot, ZoneId zone, VantageId vantage, std::size_t count) {
+  return coverage_from(snapshot, "ASC", zone, vantage, count);
+}
+
+std::vector<double> last_coverage(const Snapshot& snapshot, ZoneId zone, VantageId vantage, std::size_t count) {
+  return coverage_from(snapshot, "DESC", zone, vantage, count);
 }
 
 Page<ZoneCoverage> list_coverage(const Snapshot& snapshot, ZoneId zone, const PageRequest& page) {

@@ -26,7 +26,8 @@ std::optional<ZoneRecord> find_zone(const Snapshot& snapshot, SiteId site, std::
 /// Oldest first.
 Page<ZoneRecord> list_zones(const Snapshot& snapshot, std::optional<SiteId> site, const PageRequest& page);
 std::vector<Zone> zones_of(const Snapshot& snapshot, SiteId site);
-/// Replaces the name, kind and prism. @throws Conflict when the name is taken.
+/// Replaces the name, kind and prism. Its coverage begins anew when the prism differs. @throws Conflict when the name
+/// is taken.
 ZoneRecord replace_zone(Transaction& transaction, const ZoneRecord& zone, Time now);
 /// @throws Conflict while a rule looks into it.
 void delete_zone(Transaction& transaction, ZoneId id);
@@ -41,6 +42,9 @@ struct ZoneCoverage {
   double share = 0.0;
 };
 void insert_coverage(Transaction& transaction, ZoneId zone, std::int64_t turn, double share);
+/// What the tracked scans of a vantage could judge of a zone: the first `count` of them, or the last, newest first.
+std::vector<double> first_coverage(const Snapshot& snapshot, ZoneId zone, VantageId vantage, std::size_t count);
+std::vector<double> last_coverage(const Snapshot& snapshot, ZoneId zone, VantageId vantage, std::size_t count);
 /// The latest watched first.
 Page<ZoneCoverage> list_coverage(const Snapshot& snapshot, ZoneId zone, const PageRequest& page);
 

@@ -156,11 +156,13 @@ TEST_CASE("what a scan shows of a place without a change there") {
   CHECK(sight_of(ChangeKind::added, {}) == Sight::unseen);
 }
 
-TEST_CASE("a thing that was moved is recognised by its size, however it is turned") {
+TEST_CASE("a thing that was moved is recognised by its size, and not taken for a person") {
   const OrientedBox crate = box_at({0, 0, 0}, {1.0, 0.6, 0.4}).box;
-  CHECK(are_alike(crate, box_at({9, 9, 9}, {0.55, 1.1, 0.4}).box));
+  CHECK(are_alike(crate, box_at({9, 9, 9}, {1.1, 0.55, 0.4}).box));
   CHECK_FALSE(are_alike(crate, box_at({9, 9, 9}, {2.0, 0.6, 0.4}).box));
   CHECK_FALSE(are_alike(crate, box_at({9, 9, 9}, {0.2, 0.2, 0.2}).box));
+  CHECK_FALSE(are_alike(box_at({0, 0, 0}, {1.1, 0.6, 0.5}).box, box_at({0, 0, 0}, {0.5, 0.45, 1.6}).box));
+  CHECK(size_difference_m(crate, box_at({9, 9, 9}, {1.1, 0.55, 0.4}).box) == doctest::Approx(0.15));
 }
 
 }  // namespace

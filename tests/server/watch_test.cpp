@@ -174,6 +174,22 @@ TEST_CASE("every zone has a coverage for each scan") {
   CHECK(coverage.front().share < 0.2);
 }
 
+TEST_CASE("a place that sees much less of a zone than at first is told, until it sees it again") {
+  WatchedPlace place;
+  add_zone(place, "gate", ZoneKind::ignore, -1.0, 1.0);  // so that nothing else is told
+  place.learn();
+  for (int i = 0; i < 3; ++i) place.take();
+  place.take({.screen = true});
+  CHECK(place.alerts().empty());
+  place.take({.screen = true});
+  place.take({.screen = true});
+  const auto dropped = [](const AlertRecord& alert) { return alert.cause == "coverage-dropped"; };
+  REQUIRE(std::ranges::count_if(place.alerts(), dropped) == 1);
+  place.take();
+  const auto alerts = place.alerts();
+  CHECK(std::ranges::find_if(alerts, dropped)->state == AlertState::resolved);
+}
+
 TEST_CASE("while a silence holds nothing is raised; when it is over, what still lasts is") {
   WatchedPlace place;
   place.learn();

@@ -92,6 +92,8 @@ void watch(const Snapshot& s, SiteId site, SensorId sensor) {
     }
   }
   list_coverage(s, ZoneId{1}, {});
+  first_coverage(s, ZoneId{1}, VantageId{1}, 3);
+  last_coverage(s, ZoneId{1}, VantageId{1}, 2);
   rulebook_of(s, site, at_second(0));
   find_zone(s, site, "gate");
   followed_tracks(s, site);
