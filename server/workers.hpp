@@ -14,8 +14,8 @@
 
 #include "core/ids.hpp"
 #include "server/comparison_runner.hpp"
-#include "storage/signal.hpp"
 #include "storage/comparisons.hpp"
+#include "storage/signal.hpp"
 #include "storage/store.hpp"
 
 namespace raywatch {

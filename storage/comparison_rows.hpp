@@ -11,8 +11,8 @@ namespace raywatch {
 void set_comparison_state(Transaction& transaction, ComparisonId id, ComparisonState state,
                           std::string_view failure = {});
 
-/// Sets a scan's state after its comparisons: comparing while one runs, or others have ended and the watching one waits;
-/// else compared if one is done, else queued if one waits, else failed.
+/// Sets a scan's state after its comparisons: comparing while one runs, or others have ended and the watching one
+/// waits; else compared if one is done, else queued if one waits, else failed.
 void update_scan_state(Transaction& transaction, ScanId scan);
 
 /// @returns their ids, in their order.
