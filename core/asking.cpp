@@ -14,19 +14,11 @@
 namespace raywatch {
 namespace {
 
-/// T_a as a multiple of the spacing of a sensor's shots: wide enough to have neighbours on every side of a direction
-/// also where the spacing varies.
 constexpr double kAnglePerSpacing = 1.6;
-/// Used when nothing is known of a sensor's resolution.
 constexpr double kFallbackAngle_rad = std::numbers::pi / 180.0;
 
-double spacing_rad(const ScanView& view) {
-  return view.sensor.angular_resolution_rad ? view.sensor.angular_resolution_rad->maxCoeff() : 0.0;
-}
-
-double neighbour_angle_rad(const ScanView& view) {
-  const double spacing = spacing_rad(view);
-  return spacing > 0.0 ? std::min(kAnglePerSpacing * spacing, std::numbers::pi / 2) : kFallbackAngle_rad;
+double spacing_rad(const SensorModel& sensor) {
+  return sensor.angular_resolution_rad ? sensor.angular_resolution_rad->maxCoeff() : 0.0;
 }
 
 Pose asked_from_view(const ScanView& asked, const ScanView& view) {
@@ -35,16 +27,21 @@ Pose asked_from_view(const ScanView& asked, const ScanView& view) {
 
 }  // namespace
 
+double default_angle_rad(const SensorModel& sensor) {
+  const double spacing = spacing_rad(sensor);
+  return spacing > 0.0 ? std::min(kAnglePerSpacing * spacing, std::numbers::pi / 2) : kFallbackAngle_rad;
+}
+
 bool Asking::weighs() const {
   return parameters_.grouping == Grouping::consensus && parameters_.support_distance_m > 0.0;
 }
 
 double Asking::angle_rad(const ScanView& asked) const {
-  return parameters_.angle_rad.value_or(neighbour_angle_rad(asked));
+  return parameters_.angle_rad.value_or(default_angle_rad(asked.sensor));
 }
 
 Thresholds Asking::surface_thresholds(const ScanView& asked) const {
-  return {std::min(angle_rad(asked), neighbour_angle_rad(asked)), parameters_.range_m};
+  return {std::min(angle_rad(asked), default_angle_rad(asked.sensor)), parameters_.range_m};
 }
 
 Answers Asking::ask_all(const ScanView& asked, const ScanView& view, std::span<const std::uint8_t> valid) const {
@@ -79,7 +76,7 @@ void Asking::look_closely(const ScanView& asked, const ScanView& view, std::span
 
 void Asking::warn_of_coarse_rings(const ScanView& asked, const std::string& name,
                                   std::vector<std::string>& warnings) const {
-  const double spacing = spacing_rad(asked), angle = angle_rad(asked);
+  const double spacing = spacing_rad(asked.sensor), angle = angle_rad(asked);
   if (!parameters_.angle_rad || spacing == 0.0 || angle >= spacing) return;
   char text[240];
   const double degrees = 180.0 / std::numbers::pi;

@@ -10,6 +10,10 @@ namespace raywatch {
 
 using Answers = std::vector<Answer>;  ///< one a point
 
+/// T_a when it is not given: wide enough to have neighbours on every side of a direction, also where the spacing of the
+/// shots varies. 1 degree when nothing is known of a sensor's resolution.
+double default_angle_rad(const SensorModel& sensor);
+
 /// How the scans of a comparison are asked about each other's points.
 class Asking {
  public:

@@ -1,25 +1,13 @@
 #include "core/look.hpp"
 
 #include <algorithm>
-#include <numbers>
+
+#include "core/asking.hpp"
 
 namespace raywatch {
-namespace {
-
-/// As in `detect`: wide enough to have neighbours on every side of a direction.
-double angle_for(const SensorModel& sensor, const CompareParameters& parameters) {
-  constexpr double kAnglePerSpacing = 1.6;
-  constexpr double kFallbackAngle_rad = std::numbers::pi / 180.0;
-  if (parameters.angle_rad) return *parameters.angle_rad;
-  const double spacing_rad = sensor.angular_resolution_rad ? sensor.angular_resolution_rad->maxCoeff() : 0.0;
-  return spacing_rad > 0.0 ? std::min(kAnglePerSpacing * spacing_rad, std::numbers::pi / 2) : kFallbackAngle_rad;
-}
-
-}  // namespace
-
 Thresholds look_thresholds(const SensorModel& sensor, const CompareParameters& parameters) {
   const bool weighs = parameters.support_distance_m > 0.0;
-  return {.angle_rad = angle_for(sensor, parameters),
+  return {.angle_rad = parameters.angle_rad.value_or(default_angle_rad(sensor)),
           .range_m = weighs ? std::min(parameters.support_distance_m, parameters.range_m) : parameters.range_m};
 }
 
