@@ -96,6 +96,7 @@ class ConeSpans {
   bool fits(std::size_t lane) const { return fits_ && is_unfit_[lane] == 0.0f; }
   FloatMask fits() const { return fits_ ? hn::Not(unfit_) : hn::FirstN(FloatTag(), 0); }
 
+  /// @param row one that the cone of that lane touches: its span is not empty
   Sides sides(std::size_t row, std::size_t lane) const {
     const std::size_t grid_row = static_cast<std::size_t>(low_[lane]) + row;
     const float columns = grid_.columns[grid_row], rounding = 1e-6f * columns + 0.01f;

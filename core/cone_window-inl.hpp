@@ -181,7 +181,8 @@ class ConeWindow {
   HWY_NOINLINE void list_cells(bool with_nearer, bool with_farther, Remains& remains) const {
     bool west = false, east = false, south = false, north = false;
     for (std::size_t row = 0; row < spans_.rows(); ++row) {
-      const std::int32_t first = spans_.span(row, lane_).first;
+      const ConeSpans::Span span = spans_.span(row, lane_);
+      if (span.count == 0) continue;  // a row that only cones of other lanes touch, and which the grid may not have
       const ConeSpans::Sides sides = spans_.sides(row, lane_);
       for_each_vector_of(row, [&](const Cells& cells, std::int32_t k) HWY_ATTR {
         const FloatMask full = hn::Le(cells.least, cells.greatest), border = hn::AndNot(cells.inside, full);
@@ -189,7 +190,7 @@ class ConeWindow {
         if (with_nearer) listed = hn::Or(listed, hn::And(border, hn::Le(cells.greatest, band_.near)));
         if (with_farther) listed = hn::Or(listed, hn::And(border, hn::Ge(cells.least, band_.far)));
         for (std::uint32_t bits = bits_of(listed); bits != 0; bits &= bits - 1) {
-          remains.add(static_cast<std::uint32_t>(first + k + std::countr_zero(bits)));
+          remains.add(static_cast<std::uint32_t>(span.first + k + std::countr_zero(bits)));
         }
         const std::uint32_t inside = bits_of(hn::And(cells.inside, full));
         if (inside == 0) return;
