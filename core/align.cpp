@@ -157,7 +157,8 @@ class Fitting {
     const Motions fixed = information.fixed_motions(most_sigma_m());
     if (fixed.cols() == 0) return true;
     const MotionForm normal = fixed.transpose() * information.normal * fixed;
-    const Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1> along = normal.ldlt().solve(-fixed.transpose() * information.gradient);
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1> along =
+        normal.ldlt().solve(-fixed.transpose() * information.gradient);
     const Vector6 motion = (fixed * along).cwiseProduct(scale_);
     world_from_scan_.position_m += motion.head<3>();
     world_from_scan_.orientation = (turn_by(motion.tail<3>()) * world_from_scan_.orientation).normalized();
