@@ -54,8 +54,9 @@ class PriorSearch {
     asking_.look_closely(scan_, prior, places_of(state.answers, is_undecided), state.answers);
     const std::vector<std::uint32_t> free =
         places_of(state.answers, [](Answer answer) { return answer == Answer::free; });
-    const bool folds = parameters_.grouping == Grouping::union_;
-    const std::vector<std::uint8_t> refuted = folds ? std::vector<std::uint8_t>(free.size(), 0) : refuted_at(p, free);
+    const bool is_union = parameters_.grouping == Grouping::union_;
+    const std::vector<std::uint8_t> refuted =
+        is_union ? std::vector<std::uint8_t>(free.size(), 0) : refuted_at(p, free);
     for (std::size_t k = 0; k < free.size(); ++k) {
       state.candidates.push_back({free[k], class_of_prior_point(epochs_[p]), refuted[k] != 0});
     }

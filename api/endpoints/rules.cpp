@@ -3,6 +3,7 @@
 #include "api/call.hpp"
 #include "api/conditional.hpp"
 #include "api/endpoints/endpoints.hpp"
+#include "api/endpoints/list_of_site.hpp"
 #include "api/json_body.hpp"
 #include "api/json_object.hpp"
 #include "api/lookup.hpp"
@@ -124,17 +125,7 @@ HttpAnswer create_rule(Call& call) {
   return answer;
 }
 
-HttpAnswer list_rules(Call& call) {
-  const auto site_name = call.query.text("site");
-  const PageRequest page = call.query.page();
-  call.query.finish();
-  return json_answer(call.services.store.read([&](const Snapshot& snapshot) {
-    std::optional<SiteId> site;
-    if (site_name) site = site_named(snapshot, *site_name).id;
-    return render_page(raywatch::list_rules(snapshot, site, page),
-                       [&](const RuleRecord& rule) { return render(snapshot, rule); });
-  }));
-}
+HttpAnswer list_rules(Call& call) { return list_of_site(call, raywatch::list_rules); }
 
 HttpAnswer get_rule(Call& call) {
   call.query.finish();

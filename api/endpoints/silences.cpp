@@ -1,5 +1,6 @@
 #include "api/call.hpp"
 #include "api/endpoints/endpoints.hpp"
+#include "api/endpoints/list_of_site.hpp"
 #include "api/json_body.hpp"
 #include "api/json_object.hpp"
 #include "api/lookup.hpp"
@@ -59,17 +60,7 @@ HttpAnswer create_silence(Call& call) {
   return answer;
 }
 
-HttpAnswer list_silences(Call& call) {
-  const auto site_name = call.query.text("site");
-  const PageRequest page = call.query.page();
-  call.query.finish();
-  return json_answer(call.services.store.read([&](const Snapshot& snapshot) {
-    std::optional<SiteId> site;
-    if (site_name) site = site_named(snapshot, *site_name).id;
-    return render_page(raywatch::list_silences(snapshot, site, page),
-                       [&](const SilenceRecord& silence) { return render(snapshot, silence); });
-  }));
-}
+HttpAnswer list_silences(Call& call) { return list_of_site(call, raywatch::list_silences); }
 
 HttpAnswer delete_silence(Call& call) {
   call.query.finish();
