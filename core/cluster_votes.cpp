@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/assumed_sensor.hpp"
 #include "core/nearest_return.hpp"
 #include "core/returns_near.hpp"
 #include "core/smoothness.hpp"

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/assumed_sensor.hpp"
 #include "core/nearest_return.hpp"
 #include "core/surface_kernels.hpp"
 
@@ -20,8 +21,6 @@ constexpr double kOn = 2.5;
 constexpr double kOff = 5.0;
 /// The same in multiples of the roughness.
 constexpr double kOffRoughness = 2.0;
-/// Assumed of sensors of which nothing is known.
-constexpr double kFallbackNoise_m = 0.02;
 
 /// The distances at which a point is on a surface, and off it.
 struct Limits {
@@ -66,9 +65,8 @@ Answer weigh_one(const PreparedPrior& prior, const Eigen::Vector3d& point_m, con
 }  // namespace
 
 SurfaceTolerance tolerance_between(const ScanView& a, const ScanView& b, const CompareParameters& parameters) {
-  const auto noise = [](const ScanView& view) { return view.sensor.range_noise_m.value_or(kFallbackNoise_m); };
   return {.roughness_m = parameters.support_distance_m,
-          .range_noise_m = std::hypot(noise(a), noise(b)),
+          .range_noise_m = std::hypot(noise_of(a), noise_of(b)),
           .position_m = std::hypot(a.pose_uncertainty.position_m, b.pose_uncertainty.position_m),
           .angle_rad = std::hypot(a.pose_uncertainty.angle_rad, b.pose_uncertainty.angle_rad)};
 }

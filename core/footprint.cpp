@@ -1,5 +1,6 @@
 #include "core/footprint.hpp"
 
+#include "core/assumed_sensor.hpp"
 #include "core/for_each_point.hpp"
 #include "core/returns_near.hpp"
 

@@ -5,7 +5,7 @@
 #include "core/cluster.hpp"
 #include "core/compare.hpp"
 #include "core/fold.hpp"
-#include "core/grow.hpp"
+#include "core/seeds.hpp"
 
 namespace raywatch {
 namespace {

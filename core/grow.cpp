@@ -7,6 +7,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "core/assumed_sensor.hpp"
 #include "core/returns_near.hpp"
 
 namespace raywatch {

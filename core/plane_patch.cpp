@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/assumed_sensor.hpp"
 #include "core/cone.hpp"
 #include "core/prior_index_impl.hpp"
 
@@ -21,9 +22,6 @@ constexpr double kMostReturns = 60.0;
 constexpr std::size_t kLeastReturns = 5;
 /// A normal that is less certain than this is none.
 constexpr double kNormalSigmaLimit_rad = 0.12;
-/// Used where nothing is known of the sensor.
-constexpr double kFallbackNoise_m = 0.02;
-constexpr double kFallbackSpacing_rad = 0.01;
 /// No scanner, and no surface, is better than this.
 constexpr double kLeastNoise_m = 0.002;
 
@@ -55,11 +53,10 @@ struct PatchFitter::Moments {
 };
 
 PatchFitter::PatchFitter(const ScanView& scan) : index_(scan.index.impl()) {
-  const Eigen::Vector2d resolution =
-      scan.sensor.angular_resolution_rad.value_or(Eigen::Vector2d::Constant(kFallbackSpacing_rad));
+  const Eigen::Vector2d resolution = spacing_of(scan);
   spacing_rad_ = resolution.maxCoeff();
   shot_sr_ = resolution.prod();
-  noise_m_ = std::max(scan.sensor.range_noise_m.value_or(kFallbackNoise_m), kLeastNoise_m);
+  noise_m_ = std::max(noise_of(scan), kLeastNoise_m);
 }
 
 double PatchFitter::half_angle_rad(double range_m) const {

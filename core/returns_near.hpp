@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/compare.hpp"
 #include "core/cone.hpp"
 #include "core/prior_index_impl.hpp"
 
@@ -31,18 +30,6 @@ void for_each_return_around(const PriorIndex::Impl& index, const Eigen::Vector3d
   for_each_return_near(index, center_m, std::asin(radius_m / range_m), [&](std::uint32_t i) {
     if ((point_of(index.returns[i]) - center_m).squaredNorm() < radius_m * radius_m) visit(i);
   });
-}
-
-/// The spacing of a scan's shots in azimuth and elevation, in radians; assumed where nothing is known.
-inline Eigen::Vector2d spacing_of(const ScanView& view) {
-  constexpr double kFallbackSpacing_rad = 0.01;
-  return view.sensor.angular_resolution_rad.value_or(Eigen::Vector2d::Constant(kFallbackSpacing_rad));
-}
-
-/// The standard deviation of a scan's ranges in metres; assumed where nothing is known.
-inline double noise_of(const ScanView& view) {
-  constexpr double kFallbackNoise_m = 0.02;
-  return view.sensor.range_noise_m.value_or(kFallbackNoise_m);
 }
 
 }  // namespace raywatch

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <vector>
 
+#include "core/assumed_sensor.hpp"
 #include "core/returns_near.hpp"
 
 namespace raywatch {
