@@ -27,6 +27,12 @@ describe('what people read', () => {
     expect(shortTime(time, 'Europe/Berlin', Date.parse('2026-03-28T23:30:00Z'))).toBe('28 Mar, 23:30:05 CET');
   });
 
+  it('names the year where it is another one', () => {
+    const now_ms = Date.parse('2026-03-28T23:30:00Z');
+    expect(shortTime('2025-12-31T23:30:00Z', 'UTC', now_ms)).toBe('31 Dec 2025, 23:30:00 UTC');
+    expect(shortTime('2025-12-31T23:30:00Z', 'Europe/Berlin', now_ms)).toBe('1 Jan, 00:30:00 CET');
+  });
+
   it('says how long ago', () => {
     const now_ms = Date.parse('2026-03-28T12:00:00Z');
     expect(ago('2026-03-28T11:57:00Z', now_ms)).toBe('3 min ago');

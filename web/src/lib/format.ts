@@ -30,7 +30,7 @@ export const placeMetres = (place: readonly number[]): string =>
 export const volume = (cubicMetres: number): string =>
   cubicMetres < 0.1
     ? `${numberFormat({ maximumSignificantDigits: 3 }).format(cubicMetres * 1000)} L`
-    : `${numberFormat({ maximumSignificantDigits: 4 }).format(cubicMetres)} m³`;
+    : `${numberFormat({ maximumSignificantDigits: 3 }).format(cubicMetres)} m³`;
 
 export const percent = (share: number, digits = 0): string =>
   `${numberFormat({ minimumFractionDigits: digits, maximumFractionDigits: digits }).format(share * 100)} %`;
@@ -83,17 +83,19 @@ export function dateTime(time: string, zone: string): string {
   }).format(new Date(time));
 }
 
-/** Without date when it is that day's: "14:03:05 CET", else "21 Nov, 23:10 CET". */
+/** As much of the date as is needed: "14:03:05 CET", "21 Nov, 23:10:00 CET", "31 Dec 2025, 23:10:00 CET". */
 export function shortTime(time: string, zone: string, now_ms: number): string {
-  const day = timeFormat(zone, { year: 'numeric', month: 'numeric', day: 'numeric' });
   const moment = new Date(time);
-  const today = day.format(moment) === day.format(new Date(now_ms));
+  const now = new Date(now_ms);
+  const same = (options: Intl.DateTimeFormatOptions): boolean =>
+    timeFormat(zone, options).format(moment) === timeFormat(zone, options).format(now);
+  if (!same({ year: 'numeric' })) return dateTime(time, zone);
   const clock: Intl.DateTimeFormatOptions = {
     hour: '2-digit',
     minute: '2-digit',
     second: '2-digit',
     timeZoneName: 'short',
   };
-  if (today) return timeFormat(zone, clock).format(moment);
+  if (same({ month: 'numeric', day: 'numeric' })) return timeFormat(zone, clock).format(moment);
   return timeFormat(zone, { day: 'numeric', month: 'short', ...clock }).format(moment);
 }

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { currentOf, noTriage, reduceTriage, targetsOf, type Triage, type TriageAction } from './triage';
+import { currentOf, noTriage, noteFor, reduceTriage, targetsOf, type Triage, type TriageAction } from './triage';
 
 const ids = [9, 7, 5];
 const after = (...actions: TriageAction[]): Triage => actions.reduce(reduceTriage, noTriage);
@@ -26,6 +26,14 @@ describe('triage', () => {
     const triage = after(down(), down()); // at 7
     expect(currentOf(triage, [11, 9, 7, 5])).toBe(7);
     expect(reduceTriage(triage, down([11, 9, 7, 5])).current).toBe(5);
+  });
+
+  it('keeps what is typed about an alert until something is done', () => {
+    const drafted = after({ type: 'triage/drafted', id: 7, note: 'on my way' });
+    expect(noteFor(drafted, [7])).toBe('on my way');
+    expect(noteFor(drafted, [9])).toBe('');
+    expect(noteFor(drafted, [7, 9])).toBe('');
+    expect(noteFor(reduceTriage(drafted, { type: 'triage/cleared' }), [7])).toBe('');
   });
 
   it('acts on what is marked and still listed, else on the current one', () => {

@@ -6,9 +6,11 @@ export interface Triage {
   /** Its place in the list, for when it leaves the list: the next one takes it. */
   readonly place: number;
   readonly marked: readonly number[];
+  /** What was typed about one alert and is not sent yet. */
+  readonly draft: { readonly id: number; readonly note: string } | undefined;
 }
 
-export const noTriage: Triage = { current: undefined, place: 0, marked: [] };
+export const noTriage: Triage = { current: undefined, place: 0, marked: [], draft: undefined };
 
 /** `ids` are the alerts as they are listed now, which may change at any moment. */
 export type TriageAction =
@@ -16,6 +18,7 @@ export type TriageAction =
   | { type: 'triage/pointed'; ids: readonly number[]; id: number }
   | { type: 'triage/marked'; id: number }
   | { type: 'triage/marked-all'; ids: readonly number[] }
+  | { type: 'triage/drafted'; id: number; note: string }
   | { type: 'triage/cleared' };
 
 export function reduceTriage(triage: Triage, action: TriageAction): Triage {
@@ -33,8 +36,10 @@ export function reduceTriage(triage: Triage, action: TriageAction): Triage {
       };
     case 'triage/marked-all':
       return { ...triage, marked: [...action.ids] };
+    case 'triage/drafted':
+      return { ...triage, draft: { id: action.id, note: action.note } };
     case 'triage/cleared':
-      return triage.marked.length === 0 ? triage : { ...triage, marked: [] };
+      return triage.marked.length === 0 && !triage.draft ? triage : { ...triage, marked: [], draft: undefined };
   }
 }
 
@@ -59,4 +64,9 @@ export function targetsOf(triage: Triage, ids: readonly number[]): number[] {
   if (marked.length > 0) return marked;
   const current = currentOf(triage, ids);
   return current === undefined ? [] : [current];
+}
+
+/** The note that goes with an action on these alerts: what was typed about the only one. */
+export function noteFor(triage: Triage, ids: readonly number[]): string {
+  return ids.length === 1 && triage.draft?.id === ids[0] ? (triage.draft?.note ?? '') : '';
 }

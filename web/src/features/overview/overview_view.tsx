@@ -195,7 +195,9 @@ function SensorRow({ sensor }: { sensor: Schema<'Sensor'> }) {
 function Share({ value }: { value: number }) {
   return (
     <span class="share">
-      <meter min={0} max={1} value={value} aria-hidden="true" />
+      <span class="bar" aria-hidden="true">
+        <span style={{ width: `${100 * value}%` }} />
+      </span>
       {percent(value)}
     </span>
   );
