@@ -61,7 +61,7 @@ function OperatorDialog({
         <label class="field">
           Your name
           <input
-            autofocus
+            data-first
             required
             maxLength={100}
             value={name}

@@ -129,7 +129,7 @@ function ThemeSwitch() {
       type="button"
       class="quiet"
       title={`Colours: ${words}`}
-      aria-label={`Colours: ${words}. Change`}
+      aria-label={`Colours: ${theme} (${words})`}
       onClick={() => store.dispatch({ type: 'settings/theme', theme: kNextTheme[theme] })}
     >
       <Icon name="theme" />

@@ -4,6 +4,7 @@
 import { type LiveState } from '../lib/event_stream';
 import { reduceResources, type ResourceAction, type Resources } from '../lib/resources';
 import { reduceTriage, type Triage, type TriageAction, noTriage } from '../features/alerts/triage';
+import { reduceUploads, type Upload, type UploadAction } from '../features/scans/uploads';
 import { type Location, type RouterAction, reduceLocation } from './router';
 import { reduceSettings, type Settings, type SettingsAction } from './settings';
 import { reduceToasts, type Toast, type ToastAction } from './toasts';
@@ -16,6 +17,7 @@ export interface State {
   readonly settings: Settings;
   readonly toasts: readonly Toast[];
   readonly triage: Triage;
+  readonly uploads: readonly Upload[];
 }
 
 export type Action =
@@ -25,10 +27,20 @@ export type Action =
   | ResourceAction
   | SettingsAction
   | ToastAction
-  | TriageAction;
+  | TriageAction
+  | UploadAction;
 
 export function initialState(location: Location, settings: Settings, now_ms: number): State {
-  return { location, live: { state: 'connecting' }, now_ms, resources: {}, settings, toasts: [], triage: noTriage };
+  return {
+    location,
+    live: { state: 'connecting' },
+    now_ms,
+    resources: {},
+    settings,
+    toasts: [],
+    triage: noTriage,
+    uploads: [],
+  };
 }
 
 export function reduce(state: State, action: Action): State {
@@ -40,6 +52,7 @@ export function reduce(state: State, action: Action): State {
     settings: isFor<SettingsAction>('settings/', action) ? reduceSettings(state.settings, action) : state.settings,
     toasts: isFor<ToastAction>('toast/', action) ? reduceToasts(state.toasts, action) : state.toasts,
     triage: isFor<TriageAction>('triage/', action) ? reduceTriage(state.triage, action) : state.triage,
+    uploads: isFor<UploadAction>('upload/', action) ? reduceUploads(state.uploads, action) : state.uploads,
   };
   return (Object.keys(next) as (keyof State)[]).every((slice) => next[slice] === state[slice]) ? state : next;
 }

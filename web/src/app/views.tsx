@@ -4,7 +4,13 @@
 
 import { type ComponentType } from 'preact';
 import { AlertsView } from '../features/alerts/alerts_view';
+import { BaselinesView } from '../features/baselines/baselines_view';
 import { OverviewView } from '../features/overview/overview_view';
+import { ScanView } from '../features/scans/scan_view';
+import { ScansView } from '../features/scans/scans_view';
+import { SensorView } from '../features/sensors/sensor_view';
+import { SensorsView } from '../features/sensors/sensors_view';
+import { SilencesView } from '../features/silences/silences_view';
 import { type IconName } from '../ui/icon';
 import { matchPath } from './router';
 
@@ -16,7 +22,7 @@ export interface View {
   readonly title: string;
   readonly component: ComponentType<ViewProps>;
   /** Views without it are reached from others. */
-  readonly menu?: { readonly icon: IconName; readonly key: string };
+  readonly menu?: { readonly icon: IconName };
 }
 
 const view = (pattern: string, title: string, component: ComponentType<never>, menu?: View['menu']): View => ({
@@ -27,9 +33,15 @@ const view = (pattern: string, title: string, component: ComponentType<never>, m
 });
 
 export const kViews: readonly View[] = [
-  view('/', 'Overview', OverviewView, { icon: 'overview', key: 'o' }),
-  view('/alerts', 'Alerts', AlertsView, { icon: 'alert', key: 'a' }),
+  view('/', 'Overview', OverviewView, { icon: 'overview' }),
+  view('/alerts', 'Alerts', AlertsView, { icon: 'alert' }),
   view('/alerts/:id', 'Alert', AlertsView),
+  view('/scans', 'Scans', ScansView, { icon: 'scan' }),
+  view('/scans/:id', 'Scan', ScanView),
+  view('/sensors', 'Sensors', SensorsView, { icon: 'sensor' }),
+  view('/sensors/:name', 'Sensor', SensorView),
+  view('/baselines', 'Baselines', BaselinesView, { icon: 'baseline' }),
+  view('/silences', 'Silences', SilencesView, { icon: 'silence' }),
 ];
 
 /** The view that a path shows, with what its placeholders stand for. */

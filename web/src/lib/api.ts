@@ -121,3 +121,29 @@ async function request(url: string, init: RequestInit): Promise<Response> {
   if (response.ok || response.status === 304) return response;
   throw problemOf(response.status, await response.text());
 }
+
+/** What the daemon is told about a scan file beside its bytes. */
+export type ScanHints = NonNullable<Parameters<'/api/v1/scans', 'post'>['query']>;
+
+/** Uploads a scan file; `onProgress` hears how many bytes are sent. @throws Problem; AbortError when `signal` ends it. */
+export function uploadScan(
+  file: Blob,
+  hints: ScanHints,
+  onProgress: (sent_bytes: number) => void,
+  signal?: AbortSignal,
+): Promise<Schema<'UploadedScans'>> {
+  return new Promise((resolve, reject) => {
+    const upload = new XMLHttpRequest(); // fetch tells nothing of how much was sent
+    upload.open('POST', fill('/api/v1/scans', { query: hints }));
+    upload.setRequestHeader('Content-Type', 'application/octet-stream');
+    upload.upload.onprogress = (event) => onProgress(event.loaded);
+    upload.onerror = () => reject(unreachable());
+    upload.onabort = () => reject(new DOMException('aborted', 'AbortError'));
+    upload.onload = () => {
+      if (upload.status < 300) resolve(JSON.parse(upload.responseText) as Schema<'UploadedScans'>);
+      else reject(problemOf(upload.status, upload.responseText));
+    };
+    signal?.addEventListener('abort', () => upload.abort());
+    upload.send(file);
+  });
+}

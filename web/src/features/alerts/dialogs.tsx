@@ -26,7 +26,8 @@ export function SnoozeDialog({
   const zone = useZone(site);
   const now_ms = useSelect((state) => state.now_ms);
   const [choice, setChoice] = useState(0);
-  const [own, setOwn] = useState(localOf(new Date(now_ms + 3_600_000), zone));
+  const [chosenEnd, setOwn] = useState<string | undefined>();
+  const own = chosenEnd ?? localOf(new Date(now_ms + 3_600_000), zone);
   const [note, setNote] = useState(draft);
   const choices = [
     { words: 'for one hour', until: new Date(now_ms + 3_600_000) },
@@ -47,7 +48,13 @@ export function SnoozeDialog({
           <legend class="visually-hidden">How long</legend>
           {choices.map(({ words, until }, index) => (
             <label key={words}>
-              <input type="radio" name="until" checked={choice === index} onChange={() => setChoice(index)} />
+              <input
+                type="radio"
+                data-first={index === 0 ? true : undefined}
+                name="until"
+                checked={choice === index}
+                onChange={() => setChoice(index)}
+              />
               {words}
               {index < choices.length - 1 ? (
                 <span class="muted">{dateTime(until.toISOString(), zone)}</span>
@@ -99,7 +106,7 @@ export function ConfirmDialog({
       >
         <p>{words}</p>
         <NoteField note={note} onNote={setNote} />
-        <Buttons doIt={doIt} onClose={onClose} />
+        <Buttons doIt={doIt} first onClose={onClose} />
       </form>
     </Dialog>
   );
@@ -114,10 +121,10 @@ export function NoteField({ note, onNote }: { note: string; onNote: (note: strin
   );
 }
 
-function Buttons({ doIt, onClose }: { doIt: string; onClose: () => void }) {
+function Buttons({ doIt, first, onClose }: { doIt: string; first?: boolean; onClose: () => void }) {
   return (
     <div class="actions">
-      <button type="submit" class="primary">
+      <button type="submit" class="primary" data-first={first}>
         {doIt}
       </button>
       <button type="button" onClick={onClose}>
