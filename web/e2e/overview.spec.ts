@@ -41,3 +41,17 @@ test('the overview fits a telephone', async ({ page, yard }) => {
   await expect(page.getByRole('heading', { name: 'Alerts', level: 1 })).toBeVisible();
   await expect(page.getByRole('navigation', { name: 'Views' })).toBeHidden();
 });
+
+test('nothing is fetched twice', async ({ page, yard }) => {
+  const asked: string[] = [];
+  page.on('request', (request) => {
+    if (/\/(api\/|metrics)/.test(request.url())) asked.push(`${request.method()} ${request.url()}`);
+  });
+  await page.goto(yard.url);
+  await expect(page.getByRole('row').filter({ hasText: 'yard-2' })).toContainText('good');
+  await page.getByRole('link', { name: 'Go to the inbox' }).click();
+  await expect(page.locator('.alert-row').first()).toBeVisible();
+  await page.goBack();
+  await expect(page.getByRole('row').filter({ hasText: 'yard-2' })).toContainText('good');
+  expect(asked.filter((request, index) => asked.indexOf(request) !== index)).toEqual([]);
+});

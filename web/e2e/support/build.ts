@@ -12,11 +12,11 @@ export const kBuild = resolve(
 export const kYard = resolve(kBuild, 'e2e-yard');
 export const kYardScans = 14;
 
-export function simulateYard(): void {
-  if (existsSync(resolve(kYard, 'manifest.json'))) return;
+export function simulateYard(folder = kYard, more: readonly string[] = []): void {
+  if (existsSync(resolve(folder, 'manifest.json'))) return;
   const made = spawnSync(
     resolve(kBuild, 'raywatch-simulate'),
-    ['yard', '--output', kYard, '--scans', String(kYardScans), '--density', '0.3', '--interval-s', '30'],
+    ['yard', '--output', folder, '--scans', String(kYardScans), '--density', '0.3', '--interval-s', '30', ...more],
     { stdio: ['ignore', 'ignore', 'inherit'] },
   );
   if (made.status !== 0) throw new Error(`raywatch-simulate failed; is it built in ${kBuild}?`);

@@ -101,9 +101,9 @@ export class Daemon {
   }
 
   /** Uploads scans of the simulated yard, and waits for their comparisons. */
-  async upload(first: number, end: number): Promise<void> {
+  async upload(first: number, end: number, folder = kYard): Promise<void> {
     for (let number = first; number < end; ++number) {
-      const file = join(kYard, `yard_${String(number).padStart(4, '0')}.pcd`);
+      const file = join(folder, `yard_${String(number).padStart(4, '0')}.pcd`);
       const sideCar = JSON.parse(await readFile(`${file}.json`, 'utf8')) as SideCar;
       const query = new URLSearchParams({
         sensor: sideCar.sensor,

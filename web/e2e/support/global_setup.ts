@@ -1,3 +1,3 @@
 import { simulateYard } from './build';
 
-export default simulateYard;
+export default (): void => simulateYard();

@@ -7,6 +7,7 @@ import { Icon } from '../ui/icon';
 import { EmptyState } from '../ui/states';
 import { navigate, store, useKeys, useResource, useSelect } from './app';
 import { kOpenAlerts } from './alert_count';
+import icon from './icon.svg';
 import { LiveIndicator } from './live_indicator';
 import { OperatorButton } from './operator';
 import { type Theme } from './settings';
@@ -46,7 +47,7 @@ export function Shell() {
             <span class="visually-hidden">Menu</span>
           </button>
           <a class="brand" href="/">
-            <img src="/icon.svg" alt="" width="24" height="24" /> raywatch
+            <img src={icon} alt="" width="24" height="24" /> raywatch
           </a>
           <LiveIndicator />
           <span class="spacer" />

@@ -1,10 +1,18 @@
-import { useResource } from '../../app/app';
+import { useEffect } from 'preact/hooks';
+import { loader, useResource } from '../../app/app';
 import { bytes, count, counted, percent } from '../../lib/format';
 import { Loaded } from '../../ui/states';
 import { kMetrics, parseMetrics } from './metrics';
 
+/** No event tells that the disk fills or that a worker died. */
+const kAskEveryMs = 30_000;
+
 /** Disk, queue and memory, in the daemon's own figures. */
 export function DaemonFigures() {
+  useEffect(() => {
+    const timer = setInterval(() => loader.invalidate((key) => key === kMetrics), kAskEveryMs);
+    return () => clearInterval(timer);
+  }, []);
   return (
     <section class="panel overview-daemon" aria-labelledby="daemon">
       <header class="panel-head">
