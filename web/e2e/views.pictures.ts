@@ -34,5 +34,4 @@ test('pictures of the main views', async ({ page, daemon }) => {
   await page.setViewportSize({ width: 390, height: 800 });
   await expect(page.getByRole('heading', { name: 'Who saw it' })).toBeVisible();
   await page.screenshot({ path: join(kPictures, 'alert_narrow.png') });
-
 });
