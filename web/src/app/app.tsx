@@ -36,8 +36,8 @@ export function startApp(): void {
   listenToLinks();
   startStream();
   setInterval(() => {
-    if (!document.hidden) store.dispatch({ type: 'clock/ticked', now_ms: Date.now() });
-  }, 10_000);
+    if (!document.hidden) tick();
+  }, kTickMs);
   let saved = store.state().settings;
   applyTheme(saved);
   store.subscribe(() => {
@@ -47,6 +47,14 @@ export function startApp(): void {
     saveSettings(settings);
     applyTheme(settings);
   });
+}
+
+/** What is shown as so long ago is drawn anew this often, and at most each second when events come. */
+const kTickMs = 10_000;
+
+function tick(): void {
+  const now_ms = Date.now();
+  if (now_ms - store.state().now_ms >= 1000) store.dispatch({ type: 'clock/ticked', now_ms });
 }
 
 function applyTheme(settings: Settings): void {
@@ -68,7 +76,7 @@ function startStream(): void {
     },
     onMessage: (message) => {
       const event = JSON.parse(message.data) as LiveEvent;
-      store.dispatch({ type: 'clock/ticked', now_ms: Date.now() });
+      tick();
       loader.invalidate((key) => touches(event, key));
     },
   });

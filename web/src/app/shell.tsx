@@ -83,14 +83,16 @@ function useFocusOnNewView(path: string): void {
   }, [path]);
 }
 
-function useOpenAlerts(): number {
-  return useResource(kOpenAlerts).data?.items.length ?? 0;
+/** How many alerts are open, in words: "12", or "200+" where the first page of them is not all. */
+function useOpenAlerts(): string {
+  const page = useResource(kOpenAlerts).data;
+  return page && page.items.length > 0 ? `${page.items.length}${page.next === null ? '' : '+'}` : '';
 }
 
 function useTitle(view: View | undefined): void {
   const open = useOpenAlerts();
   useEffect(() => {
-    document.title = `${open > 0 ? `(${open}) ` : ''}${view?.title ?? 'Not found'} – raywatch`;
+    document.title = `${open !== '' ? `(${open}) ` : ''}${view?.title ?? 'Not found'} – raywatch`;
   }, [open, view]);
 }
 
@@ -106,7 +108,7 @@ function Menu({ entries, path, open }: { entries: readonly View[]; path: string;
             <a href={entry.pattern} aria-current={isHere(entry) ? 'page' : undefined}>
               <Icon name={entry.menu?.icon ?? 'next'} />
               {entry.title}
-              {entry.pattern === '/alerts' && alerts > 0 && (
+              {entry.pattern === '/alerts' && alerts !== '' && (
                 <span class="count" title={`${alerts} open`}>
                   {alerts}
                   <span class="visually-hidden"> open</span>

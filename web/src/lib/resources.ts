@@ -60,7 +60,7 @@ function with_(resources: Resources, key: string, change: Partial<Resource>): Re
 }
 
 /** Events may come many times a second; an address is asked again at most so often. */
-const kLeastMsBetween = 1000;
+const kLeastMsBetween = 500;
 /** Addresses that nobody looks at any more are kept up to this number, for the way back. */
 const kMostUnused = 60;
 
