@@ -26,7 +26,11 @@ const patience = new Promise<void>((resolve) => setTimeout(resolve, kStreamPatie
 
 export const loader = new ResourceLoader({
   resources: () => store.state().resources,
-  dispatch: store.dispatch,
+  dispatch: (action) => {
+    // What arrives is shown as of now, not as of the last tick.
+    if (action.type === 'resource/arrived') tick();
+    store.dispatch(action);
+  },
   ready: Promise.race([opened, patience]),
 });
 

@@ -3,13 +3,13 @@
 import { store, useResource, useSelect } from '../../app/app';
 import { address, type Schema } from '../../lib/api';
 import { SeverityBadge, StateBadge } from '../../ui/badges';
+import { NoteField } from '../../ui/confirm_dialog';
 import { Icon } from '../../ui/icon';
 import { KeyHint } from '../../ui/key_hint';
 import { Loaded } from '../../ui/states';
 import { Time } from '../../ui/time';
 import { ViewLink } from '../../ui/view_link';
 import { AlertHistory } from './alert_history';
-import { NoteField } from './dialogs';
 import { Why } from './why';
 import { noteFor } from './triage';
 import { type Act } from './use_actions';

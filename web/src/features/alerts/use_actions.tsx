@@ -6,9 +6,10 @@ import { store } from '../../app/app';
 import { withOperator } from '../../app/operator';
 import { type Schema } from '../../lib/api';
 import { counted } from '../../lib/format';
+import { ConfirmDialog } from '../../ui/confirm_dialog';
 import { type ActionKind, actOn } from './actions';
 import { noteFor } from './triage';
-import { ConfirmDialog, SnoozeDialog } from './dialogs';
+import { SnoozeDialog } from './snooze_dialog';
 
 export type Act = (kind: ActionKind, alerts: readonly Schema<'Alert'>[]) => void;
 

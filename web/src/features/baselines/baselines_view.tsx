@@ -8,10 +8,10 @@ import { address, type Schema, send } from '../../lib/api';
 import { counted, placeMetres } from '../../lib/format';
 import { Problem } from '../../lib/problem';
 import { StateBadge } from '../../ui/badges';
+import { ConfirmDialog } from '../../ui/confirm_dialog';
 import { type Column, DataTable } from '../../ui/data_table';
 import { EmptyState } from '../../ui/states';
 import { Time } from '../../ui/time';
-import { ConfirmDialog } from '../alerts/dialogs';
 
 type Baseline = Schema<'Baseline'>;
 

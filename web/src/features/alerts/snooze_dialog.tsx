@@ -1,10 +1,11 @@
-// The questions before an action that needs one.
+// How long an alert is put off.
 
 import { useState } from 'preact/hooks';
 import { useSelect } from '../../app/app';
 import { useZone } from '../../app/sites';
 import { counted, dateTime } from '../../lib/format';
 import { localOf, momentOf, nextTimeOfDay } from '../../lib/zone';
+import { Buttons, NoteField } from '../../ui/confirm_dialog';
 import { Dialog } from '../../ui/dialog';
 
 interface AskProps {
@@ -77,59 +78,5 @@ export function SnoozeDialog({
         <Buttons doIt="Snooze" onClose={onClose} />
       </form>
     </Dialog>
-  );
-}
-
-export function ConfirmDialog({
-  title,
-  draft,
-  words,
-  doIt,
-  onClose,
-  onConfirm,
-}: {
-  title: string;
-  draft: string;
-  words: string;
-  doIt: string;
-  onClose: () => void;
-  onConfirm: (note: string) => void;
-}) {
-  const [note, setNote] = useState(draft);
-  return (
-    <Dialog title={title} onClose={onClose}>
-      <form
-        onSubmit={(event) => {
-          event.preventDefault();
-          onConfirm(note);
-        }}
-      >
-        <p>{words}</p>
-        <NoteField note={note} onNote={setNote} />
-        <Buttons doIt={doIt} first onClose={onClose} />
-      </form>
-    </Dialog>
-  );
-}
-
-export function NoteField({ note, onNote }: { note: string; onNote: (note: string) => void }) {
-  return (
-    <label class="field">
-      Note (kept with the alert; may be left empty)
-      <textarea rows={2} maxLength={2000} value={note} onInput={(event) => onNote(event.currentTarget.value)} />
-    </label>
-  );
-}
-
-function Buttons({ doIt, first, onClose }: { doIt: string; first?: boolean; onClose: () => void }) {
-  return (
-    <div class="actions">
-      <button type="submit" class="primary" data-first={first}>
-        {doIt}
-      </button>
-      <button type="button" onClick={onClose}>
-        Cancel
-      </button>
-    </div>
   );
 }

@@ -1,0 +1,58 @@
+// A question with a note: what is about to be done, and the word that does it.
+
+import { useState } from 'preact/hooks';
+import { Dialog } from './dialog';
+
+export function ConfirmDialog({
+  title,
+  draft,
+  words,
+  doIt,
+  onClose,
+  onConfirm,
+}: {
+  title: string;
+  draft: string;
+  words: string;
+  doIt: string;
+  onClose: () => void;
+  onConfirm: (note: string) => void;
+}) {
+  const [note, setNote] = useState(draft);
+  return (
+    <Dialog title={title} onClose={onClose}>
+      <form
+        onSubmit={(event) => {
+          event.preventDefault();
+          onConfirm(note);
+        }}
+      >
+        <p>{words}</p>
+        <NoteField note={note} onNote={setNote} />
+        <Buttons doIt={doIt} first onClose={onClose} />
+      </form>
+    </Dialog>
+  );
+}
+
+export function NoteField({ note, onNote }: { note: string; onNote: (note: string) => void }) {
+  return (
+    <label class="field">
+      Note (kept with the alert; may be left empty)
+      <textarea rows={2} maxLength={2000} value={note} onInput={(event) => onNote(event.currentTarget.value)} />
+    </label>
+  );
+}
+
+export function Buttons({ doIt, first, onClose }: { doIt: string; first?: boolean; onClose: () => void }) {
+  return (
+    <div class="actions">
+      <button type="submit" class="primary" data-first={first}>
+        {doIt}
+      </button>
+      <button type="button" onClick={onClose}>
+        Cancel
+      </button>
+    </div>
+  );
+}
