@@ -145,19 +145,17 @@ PointCloud Payloads::scan_points(const PayloadRef& ref) const {
   return points;
 }
 
-std::vector<PointRun> Payloads::scan_points_around(const PayloadRef& ref, const DirectionCone& cone) const {
-  std::vector<PointRun> runs;
+std::vector<PointCloud> Payloads::scan_points_around(const PayloadRef& ref, const DirectionCone& cone) const {
+  std::vector<PointCloud> chunks;
   read_payload(*impl_, ref, [&](Database& database, const PayloadRow& row) {
     require_kind(row, "scan");
     for (const std::int64_t id : chunks_that_meet(database, ref, cone)) {
-      PointRun& run = runs.emplace_back();
-      run.first = static_cast<std::size_t>(id - ref.key * kChunksPerPayload) * kChunkPoints;
       Statement chunk(database, "SELECT data FROM chunks WHERE id = ?");
       chunk.bind(id).next();
-      decode_chunk(chunk.take<std::span<const std::uint8_t>>(), row.has_intensity, run.points);
+      decode_chunk(chunk.take<std::span<const std::uint8_t>>(), row.has_intensity, chunks.emplace_back());
     }
   });
-  return runs;
+  return chunks;
 }
 
 Panorama Payloads::scan_panorama(const PayloadRef& ref) const {
