@@ -53,7 +53,9 @@ struct ZoneVolumes {
   ChangeExtent vertical;         ///< along the vertical
   ChangeExtent normal;           ///< along the normal of the ground before
   /// The net of what was not seen in both epochs: each epoch's ground lies below what its rays passed and the zone's
-  /// z_max, and above the zone's z_min, which the surveyor vouches for. Nothing is interpolated.
+  /// z_max, and above the zone's z_min, which the surveyor vouches for: no ray shows how deep the ground is where none
+  /// ended. Where one epoch saw a cell, its height counts there, with 1.96 standard errors but without the poses.
+  /// Nothing is interpolated.
   VolumeBounds unseen;
   /// The net of the whole zone: that of what was seen, with its interval, and the bounds of the rest.
   VolumeBounds whole() const { return {net.low_m3() + unseen.low_m3, net.high_m3() + unseen.high_m3}; }

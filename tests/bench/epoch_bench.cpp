@@ -45,8 +45,10 @@ std::vector<Taken> take_night(std::uint32_t night, const Sizes& sizes) {
   std::vector<Taken> scans;
   for (std::size_t k = 0; k < sizes.scans; ++k) {
     const double y_m = 60.0 * (static_cast<double>(k) / static_cast<double>(sizes.scans - 1) - 0.5);
-    simulator::ScanPlan plan =
-        simulator::exact_plan({.position_m = {-50.0 - 3.0 * static_cast<double>(k), y_m, 6.0}}, 100 * night + k);
+    // Off the nodes of the ground, and turned, so that no ray runs exactly along a border of its cells.
+    const Pose pose{.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(0.0123, Eigen::Vector3d::UnitZ())),
+                    .position_m = {-50.37 - 3.1 * static_cast<double>(k), y_m + 0.19, 6.0}};
+    simulator::ScanPlan plan = simulator::exact_plan(pose, 100 * night + k);
     plan.captured_at = Time{} + std::chrono::hours(24 * night) + std::chrono::minutes(10 * k);
     simulator::SimulatedScan scan = simulator::take_scan(world, scanner, plan);
     scans.push_back({std::move(scan.points), plan.true_world_from_sensor, plan.captured_at});
