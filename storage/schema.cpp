@@ -1,5 +1,6 @@
 #include <array>
 
+#include "storage/delivery_schema.hpp"
 #include "storage/migrations.hpp"
 #include "storage/watch_schema.hpp"
 
@@ -201,7 +202,7 @@ CREATE TABLE chunks (
 ) STRICT;
 )sql";
 
-constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3};
+constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3, kMetadata4};
 constexpr std::array kPayloadSteps{kPayload1};
 
 }  // namespace
