@@ -1,5 +1,6 @@
 #include "api/parse_channel.hpp"
 
+#include <algorithm>
 #include <functional>
 
 #include "api/channel_rules.hpp"

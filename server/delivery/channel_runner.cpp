@@ -35,6 +35,10 @@ double milliseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
+bool is_passing(const Error& error) {
+  return dynamic_cast<const StorageError*>(&error) != nullptr && dynamic_cast<const CorruptData*>(&error) == nullptr;
+}
+
 }  // namespace
 
 ChannelRunner::ChannelRunner(Store& store, const DeliveryConfig& config, const std::function<Time()>& now,
@@ -95,7 +99,9 @@ std::optional<DeliveryRecord> ChannelRunner::take_next() {
     try {
       started->body = compose_notice(transaction, *started, config_.public_url);
       set_body(transaction, started->id, started->body);
-    } catch (const NotFound& error) {
+    } catch (const Error& error) {
+      // What cannot be read on a broken disk waits; what was deleted, or is damaged, will never be told.
+      if (is_passing(error)) throw;
       end_attempt(transaction, started->id, {.state = DeliveryState::dropped, .at = now, .error = error.what()});
       started.reset();
     }
@@ -156,9 +162,7 @@ void ChannelRunner::write_down(Transaction& transaction, const DeliveryRecord& d
   }
   const Time since = channel_.failing_since.value_or(end.at);
   note_health(transaction, channel_.id, {.trouble = result.error, .failing_since = since, .disable = result.gone});
-  if (end.state == DeliveryState::failed || end.at - since >= config_.alarm_after) {
-    tell_failing(transaction, channel_, result.error, end.at);
-  }
+  if (end.state == DeliveryState::failed) tell_failing(transaction, channel_, result.error, end.at);
 }
 
 }  // namespace raywatch

@@ -39,7 +39,9 @@ void Deliverer::supervise() {
   while (!stop.stop_requested() && !store_.commits().is_closed()) {
     const std::uint64_t seen = store_.commits().generation();
     try {
-      match_runners();
+      const auto enabled = store_.read([](const Snapshot& snapshot) { return enabled_channels(snapshot); });
+      match_runners(enabled);
+      tell_of_outages(enabled, now_());
       prune(now_());
     } catch (const std::exception& error) {
       spdlog::error("the channels cannot be looked after: {}", error.what());
@@ -54,16 +56,27 @@ void Deliverer::supervise() {
 }
 
 /// One runner for each enabled channel, made from its latest revision.
-void Deliverer::match_runners() {
-  const auto channels = store_.read([](const Snapshot& snapshot) { return enabled_channels(snapshot); });
+void Deliverer::match_runners(const std::vector<ChannelRecord>& enabled) {
   std::erase_if(runners_, [&](const auto& entry) {
-    return std::ranges::none_of(channels, [&](const ChannelRecord& channel) {
+    return std::ranges::none_of(enabled, [&](const ChannelRecord& channel) {
       return channel.id == entry.first && channel.revision == entry.second->revision();
     });
   });
-  for (const ChannelRecord& channel : channels) {
+  for (const ChannelRecord& channel : enabled) {
     if (runners_.contains(channel.id)) continue;
     runners_[channel.id] = std::make_unique<ChannelRunner>(store_, config_, now_, counters_, channel);
+  }
+}
+
+/// The next attempt may be hours away.
+void Deliverer::tell_of_outages(const std::vector<ChannelRecord>& enabled, Time now) {
+  for (const ChannelRecord& channel : enabled) {
+    if (!channel.failing_since || now - *channel.failing_since < config_.alarm_after) continue;
+    if (store_.read([&](const Snapshot& snapshot) { return is_told_failing(snapshot, channel); })) continue;
+    store_.write([&](Transaction& transaction) {
+      const std::optional<ChannelRecord> still = find_channel(transaction, channel.id);
+      if (still && still->failing_since) tell_failing(transaction, *still, still->trouble, now);
+    });
   }
 }
 

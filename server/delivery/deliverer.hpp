@@ -8,6 +8,7 @@
 #include <mutex>
 #include <stop_token>
 #include <thread>
+#include <vector>
 
 #include "api/services.hpp"
 #include "server/delivery/channel_runner.hpp"
@@ -42,7 +43,8 @@ class Deliverer {
 
  private:
   void supervise();
-  void match_runners();
+  void match_runners(const std::vector<ChannelRecord>& enabled);
+  void tell_of_outages(const std::vector<ChannelRecord>& enabled, Time now);
   void prune(Time now);
 
   const TransferLibrary transfers_;

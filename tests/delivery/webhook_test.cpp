@@ -108,6 +108,21 @@ TEST_CASE("what is given up is told to the other channels, stays in the log, and
   CHECK(place.channel(first).trouble.empty());
 }
 
+TEST_CASE("a channel that fails for long is told of, although it is not given up yet") {
+  DeliveryConfig config = ToldPlace::quick();
+  config.retry_delays = {std::chrono::hours(1)};
+  config.alarm_after = std::chrono::seconds(1);
+  ToldPlace place(config);
+  HttpReceiver broken(statuses({500}));
+  const ChannelId channel = place.add("ops", hook(broken));
+  place.open_alert("Something was added.");
+  place.wait_until([&] { return !place.failing_alerts().empty(); });
+  CHECK(place.failing_alerts()[0].title == "Channel ops (webhook) does not deliver: the receiver answered with 500.");
+  CHECK(place.deliveries(channel)[0].state == DeliveryState::pending);
+  place.deliverer().delete_channel(channel);
+  CHECK(place.failing_alerts()[0].state == AlertState::resolved);
+}
+
 TEST_CASE("410 says that the receiver wants no more: the channel is disabled, and that is told") {
   ToldPlace place;
   HttpReceiver receiver(statuses({410}));
