@@ -21,6 +21,12 @@ ToldPlace::ToldPlace(DeliveryConfig config)
       })),
       deliverer_(std::make_unique<Deliverer>(store_, config, now)) {}
 
+/// In the order of the daemon: who waits for a commit hears that there will be none.
+ToldPlace::~ToldPlace() {
+  deliverer_->request_stop();
+  store_.commits().close();
+}
+
 ChannelId ToldPlace::add(const std::string& name, const ChannelSettings& settings, ChannelRecord channel) {
   channel.name = name;
   channel.settings = settings;

@@ -17,6 +17,7 @@ namespace raywatch::test {
 class ToldPlace {
  public:
   explicit ToldPlace(DeliveryConfig config = quick());
+  ~ToldPlace();
   static DeliveryConfig quick();
 
   ChannelId add(const std::string& name, const ChannelSettings& settings, ChannelRecord channel = {});
