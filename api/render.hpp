@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: only .cpp files of api/ include this.
+// Heavy: only .cpp files include this.
 #include <Eigen/Core>
 #include <optional>
 #include <string>
@@ -10,7 +10,9 @@
 #include "core/time.hpp"
 #include "storage/alerts.hpp"
 #include "storage/baselines.hpp"
+#include "storage/channels.hpp"
 #include "storage/comparisons.hpp"
+#include "storage/deliveries.hpp"
 #include "storage/events.hpp"
 #include "storage/rules.hpp"
 #include "storage/scans.hpp"
@@ -49,6 +51,8 @@ Json render(const Snapshot& snapshot, const AlertRecord& alert);
 Json render(const AlertHistoryStep& step);
 Json render(const Snapshot& snapshot, const BaselineVersion& version);  ///< with its entries
 Json render(const Snapshot& snapshot, const Event& event);
+Json render(const Snapshot& snapshot, const ChannelRecord& channel);  ///< without its secrets
+Json render(const Snapshot& snapshot, const DeliveryRecord& delivery);
 /// @}
 
 /// The id of something, or null.

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "server/caretaker.hpp"
 #include "server/comparison_runner.hpp"
+#include "server/delivery/deliverer.hpp"
 #include "server/index_cache.hpp"
 #include "server/ingest_service.hpp"
 #include "server/machine.hpp"
@@ -69,6 +70,7 @@ struct Daemon::Impl {
                 now),
         caretaker(store, {.low_disk_bytes = 2 * config.min_free_disk_bytes}),
         caretaker_thread(caretaker, now),
+        deliverer(store, config.delivery, now),
         http(with_spool(config.http, config.data_dir),
              {store, commands(), [this] { return status(); }, now,
               [](const std::string& failure) { spdlog::error("{}", failure); }}) {
@@ -98,6 +100,7 @@ struct Daemon::Impl {
   Workers workers;
   Caretaker caretaker;
   CaretakerThread caretaker_thread;
+  Deliverer deliverer;
   HttpServer http;
 };
 
@@ -109,7 +112,9 @@ Commands Daemon::Impl::commands() {
                                   std::chrono::milliseconds patience) { return wait_for_scan(scan, patience); },
           .progress = [this](ComparisonId id) { return progress.of(id); },
           .delete_scan = [this](ScanId scan) { delete_scan(scan); },
-          .backup = [this](const std::filesystem::path& directory) { store.backup(directory); }};
+          .backup = [this](const std::filesystem::path& directory) { store.backup(directory); },
+          .test_channel = [this](ChannelId channel) { return deliverer.test(channel); },
+          .delete_channel = [this](ChannelId channel) { deliverer.delete_channel(channel); }};
 }
 
 UploadResult Daemon::Impl::ingest_file(const Upload& upload) {
@@ -171,16 +176,19 @@ DaemonStatus Daemon::Impl::status() const {
           .comparisons_finished = working.finished,
           .comparisons_failed = working.failed,
           .free_disk_bytes = free_bytes,
-          .resident_bytes = resident_memory_bytes()};
+          .resident_bytes = resident_memory_bytes(),
+          .deliveries = deliverer.figures()};
 }
 
 StopOutcome Daemon::Impl::stop() {
   const auto deadline = std::chrono::steady_clock::now() + kStopPatience;
   workers.request_stop();
+  deliverer.request_stop();
   signal.close();
   store.commits().close();  // the streams of events end
   http.stop();
-  return workers.wait_stopped(deadline) ? StopOutcome::clean : StopOutcome::comparisons_abandoned;
+  if (!workers.wait_stopped(deadline)) return StopOutcome::comparisons_abandoned;
+  return deliverer.wait_stopped(deadline) ? StopOutcome::clean : StopOutcome::deliveries_abandoned;
 }
 
 Daemon::Daemon(const DaemonConfig& config, std::function<Time()> now)

@@ -9,6 +9,7 @@
 #include "api/http_server.hpp"
 #include "core/choose_priors.hpp"
 #include "core/time.hpp"
+#include "server/delivery/delivery_config.hpp"
 #include "server/watcher.hpp"
 
 namespace raywatch {
@@ -25,12 +26,14 @@ struct DaemonConfig {
   std::chrono::hours previous_limit{24 * 365};  ///< scans older than this are no `previous` reference
   ChoiceParameters choice;
   WatchConfig watch;
+  DeliveryConfig delivery;
 };
 
 /// How a stop went.
 enum class StopOutcome : std::uint8_t {
   clean,                  ///< nothing runs any more
   comparisons_abandoned,  ///< a comparison still runs; it starts again at the next start
+  deliveries_abandoned,   ///< a message is still on its way; it is sent again at the next start
 };
 
 /// The running program: store, workers and HTTP server. Everything is running when the constructor returns; the

@@ -48,6 +48,18 @@ void bind_watch(ConfigReader& reader, WatchConfig& watch) {
   reader.duration("watch.moved_within_s", watch.moved_within, {.min = 0, .max = 31'536'000});
 }
 
+void bind_delivery(ConfigReader& reader, DeliveryConfig& delivery) {
+  reader.text("delivery.public_url", delivery.public_url);
+  reader.whole("delivery.attempts", delivery.attempts, {.min = 1, .max = 100});
+  reader.duration("delivery.give_up_after_h", delivery.give_up_after, {.min = 1, .max = 8760});
+  reader.duration("delivery.alarm_after_s", delivery.alarm_after, {.min = 0, .max = 86'400});
+  reader.duration("delivery.keep_h", delivery.keep, {.min = 1, .max = 87'600});
+  reader.duration("delivery.connect_timeout_ms", delivery.sender.connect_timeout, {.min = 100, .max = 60'000});
+  reader.duration("delivery.timeout_ms", delivery.sender.timeout, {.min = 100, .max = 120'000});
+  reader.text("delivery.proxy", delivery.sender.proxy);
+  reader.text("delivery.ca_file", delivery.sender.ca_file);
+}
+
 void bind_log(ConfigReader& reader, LogConfig& config) {
   reader.one_of("log.level", config.level, kLogLevels);
   reader.one_of("log.format", config.format, kLogFormats);
@@ -60,6 +72,7 @@ void bind_all(ConfigReader& reader, Settings& settings) {
   bind_compare(reader, settings.daemon);
   bind_choice(reader, settings.daemon.choice);
   bind_watch(reader, settings.daemon.watch);
+  bind_delivery(reader, settings.daemon.delivery);
   bind_log(reader, settings.log);
 }
 

@@ -28,8 +28,9 @@ struct Event {
   std::string text;  ///< one sentence for people
 };
 
-/// The event's id is ignored.
+/// The event's id is ignored. Queues it for the channels that want it, too.
 EventId insert_event(Transaction& transaction, const Event& event);
+std::optional<Event> find_event(const Snapshot& snapshot, EventId id);
 /// The first `limit` events after an id, in order; of one site, when given.
 std::vector<Event> events_after(const Snapshot& snapshot, EventId after, std::optional<SiteId> site, std::size_t limit);
 /// The latest event; 0 when there is none.

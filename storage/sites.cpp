@@ -133,6 +133,9 @@ void delete_site(Transaction& transaction, SiteId id) {
   if (database_of(transaction).find<int>("SELECT 1 FROM sensors WHERE site = ? LIMIT 1", id)) {
     throw Conflict("site \"" + site.name + "\" still has sensors");
   }
+  if (database_of(transaction).find<int>("SELECT 1 FROM channels WHERE site = ? LIMIT 1", id)) {
+    throw Conflict("site \"" + site.name + "\" still has channels that tell of it");
+  }
   delete_what_was_watched(database_of(transaction), id);
   database_of(transaction).run("DELETE FROM sites WHERE id = ?", id);
 }

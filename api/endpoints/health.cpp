@@ -27,6 +27,9 @@ class MetricsText {
   void head(const char* name, const char* type, const char* help) {
     out_ << "# HELP " << name << ' ' << help << "\n# TYPE " << name << ' ' << type << '\n';
   }
+  void add_of_kind(const char* name, ChannelKind kind, std::uint64_t value) {
+    out_ << name << "{kind=\"" << to_string(kind) << "\"} " << value << '\n';
+  }
   void add_answers(int hundreds, std::uint64_t value) {
     out_ << "raywatch_http_answers_total{status=\"" << hundreds << "xx\"} " << value << '\n';
   }
@@ -55,6 +58,23 @@ void add_daemon(MetricsText& metrics, const DaemonStatus& status) {
   metrics.add("raywatch_resident_memory_bytes", "gauge", "Memory of the program.", status.resident_bytes);
 }
 
+void add_deliveries(MetricsText& metrics, const std::vector<DeliveryFigures>& figures) {
+  struct Figure {
+    const char *name, *type, *help;
+    std::uint64_t DeliveryFigures::*value;
+  };
+  constexpr Figure kFigures[] = {
+      {"raywatch_deliveries_pending", "gauge", "Messages that wait or are under way.", &DeliveryFigures::pending},
+      {"raywatch_deliveries_delivered_total", "counter", "Messages that arrived since the start.",
+       &DeliveryFigures::delivered},
+      {"raywatch_deliveries_failed_total", "counter", "Messages given up since the start.", &DeliveryFigures::failed}};
+  for (const Figure& figure : kFigures) {
+    metrics.head(figure.name, figure.type, figure.help);
+    for (const DeliveryFigures& of_kind : figures)
+      metrics.add_of_kind(figure.name, of_kind.kind, of_kind.*figure.value);
+  }
+}
+
 }  // namespace
 
 HttpAnswer get_health(Call& call) {
@@ -76,7 +96,9 @@ HttpAnswer get_readiness(Call& call) {
 HttpAnswer get_metrics(Call& call) {
   call.query.finish();
   MetricsText metrics;
-  add_daemon(metrics, call.services.status());
+  const DaemonStatus status = call.services.status();
+  add_daemon(metrics, status);
+  add_deliveries(metrics, status.deliveries);
   metrics.head("raywatch_http_answers_total", "counter", "HTTP answers by the first digit of their status.");
   for (int hundreds = 2; hundreds <= 5; ++hundreds) {
     metrics.add_answers(hundreds, call.statistics.answers[static_cast<std::size_t>(hundreds)]);
