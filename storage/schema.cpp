@@ -1,6 +1,7 @@
 #include <array>
 
 #include "storage/migrations.hpp"
+#include "storage/retention_schema.hpp"
 #include "storage/watch_schema.hpp"
 
 namespace raywatch {
@@ -201,7 +202,7 @@ CREATE TABLE chunks (
 ) STRICT;
 )sql";
 
-constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3};
+constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3, kMetadataRetention};
 constexpr std::array kPayloadSteps{kPayload1};
 
 }  // namespace
