@@ -11,6 +11,7 @@
 #include "storage/alerts.hpp"
 #include "storage/baselines.hpp"
 #include "storage/comparisons.hpp"
+#include "storage/deletions.hpp"
 #include "storage/events.hpp"
 #include "storage/rules.hpp"
 #include "storage/scans.hpp"
@@ -31,6 +32,7 @@ Json render(const std::optional<Time>& time);
 Eigen::Vector3d origin_of(const Site& site);
 
 /// @{ The records, as JSON. The snapshot gives the names and the other records that they show.
+Json render(const RetentionLimits& limits);
 Json render(const Site& site);
 Json render(const Snapshot& snapshot, const Sensor& sensor);
 Json render(const Snapshot& snapshot, const ScanRecord& scan);
@@ -49,6 +51,7 @@ Json render(const Snapshot& snapshot, const AlertRecord& alert);
 Json render(const AlertHistoryStep& step);
 Json render(const Snapshot& snapshot, const BaselineVersion& version);  ///< with its entries
 Json render(const Snapshot& snapshot, const Event& event);
+Json render(const Snapshot& snapshot, const DeletionRecord& deletion);
 /// @}
 
 /// The id of something, or null.

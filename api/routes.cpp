@@ -82,6 +82,10 @@ constexpr Route kRoutes[] = {
     {"GET", "/api/v1/events", endpoints::stream_events, "Everything that happens, as it happens"},
     {"GET", "/api/v1/events/log", endpoints::list_events, "Everything that happened, in order"},
 
+    {"GET", "/api/v1/storage", endpoints::get_storage, "What is stored, how much room is left, and for how long"},
+    {"GET", "/api/v1/storage/deletions", endpoints::list_deletions, "What was deleted, when and why"},
+    {"POST", "/api/v1/storage/retention/preview", endpoints::preview_retention, "What retention would delete"},
+
     {"POST", "/api/v1/backup", endpoints::create_backup, "Copies the running store"},
 };
 

@@ -82,6 +82,10 @@ HttpAnswer get_history(Call& call);
 HttpAnswer stream_events(Call& call);
 HttpAnswer list_events(Call& call);
 
+HttpAnswer get_storage(Call& call);
+HttpAnswer list_deletions(Call& call);
+HttpAnswer preview_retention(Call& call);
+
 HttpAnswer create_backup(Call& call);
 
 }  // namespace raywatch::endpoints
