@@ -45,6 +45,7 @@ constexpr Route kRoutes[] = {
 
     {"GET", "/api/v1/changes", endpoints::list_changes, "Lists the changes"},
     {"GET", "/api/v1/changes/{id}", endpoints::get_change, "One change"},
+    {"GET", "/api/v1/changes/{id}/evidence", endpoints::get_change_evidence, "The points and rays that prove a change"},
 
     {"GET", "/api/v1/baselines", endpoints::list_baselines, "What counts as normal, by version"},
     {"POST", "/api/v1/baselines/{name}/accept", endpoints::accept_baseline, "Changes what counts as normal at a site"},

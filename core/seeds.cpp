@@ -1,6 +1,7 @@
 #include "core/seeds.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/cluster.hpp"
 #include "core/cluster_votes.hpp"
@@ -29,6 +30,12 @@ std::vector<std::vector<Candidate>> clusters_of(const ScanView& view, std::span<
     clusters[cluster_of[k]].push_back(members[k]);
   }
   return clusters;
+}
+
+/// In an order that does not depend on that of the scan's points, as some of a large cluster stand for all of it.
+void sort_by_place(const PointCloud& points, std::vector<std::uint32_t>& members) {
+  const auto place = [&](std::uint32_t i) { return std::make_tuple(points.x_m[i], points.y_m[i], points.z_m[i]); };
+  std::sort(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
 }
 
 bool is_sure(const ScanView& view, const std::vector<std::uint32_t>& cluster, std::span<const ScanView> asked,
@@ -60,6 +67,7 @@ std::vector<ClassedPoint> find_seeds(const ScanView& view, std::span<const Candi
       for (const Candidate& candidate : cluster) {
         if (!candidate.contradicted) members.push_back(candidate.index);
       }
+      sort_by_place(view.points, members);
       if (2 * members.size() < cluster.size() || !is_sure(view, members, asked, parameters)) continue;
       for (const std::uint32_t i : members) seeds.push_back({i, point_class});
     }

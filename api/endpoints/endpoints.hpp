@@ -45,6 +45,7 @@ HttpAnswer get_comparison_points(Call& call);
 
 HttpAnswer list_changes(Call& call);
 HttpAnswer get_change(Call& call);
+HttpAnswer get_change_evidence(Call& call);
 
 HttpAnswer create_zone(Call& call);
 HttpAnswer list_zones(Call& call);

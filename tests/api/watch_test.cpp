@@ -73,6 +73,47 @@ TEST_CASE("an alert says why it was raised, and each step stands in its history"
   CHECK_EQ(yard.items("/api/v1/alerts").size(), 1);
 }
 
+TEST_CASE("the evidence of a change is its points, what is around them, and the rays that went through its place") {
+  WatchedYard yard;
+  const json alert = yard.alert_of_box();
+  const std::string target = "/api/v1/changes/" + alert["why"]["changes"][0].dump() + "/evidence";
+  const json added = yard.get(target).json();
+  CHECK_EQ(added["kind"], "added");
+  REQUIRE_EQ(added["changed"].size(), 1);
+  CHECK_EQ(added["changed"][0]["scan"], alert["scan"]);
+  CHECK_EQ(added["changed"][0]["count"], box_points());
+  for (const json& point : added["changed"][0]["positions_m"]) CHECK_EQ(point[0], doctest::Approx(95.5).epsilon(1e-4));
+  CHECK_EQ(added["surroundings"].size(), 1 + alert["why"]["priors"].size());
+  // The prior's rays end at the wall, ten metres before the sensor, and pass where the box is.
+  REQUIRE_EQ(added["rays"].size(), alert["why"]["priors"].size());
+  const json& rays = added["rays"][0];
+  CHECK_EQ(rays["scan"], alert["why"]["priors"][0]);
+  CHECK_GE(rays["count"].get<std::size_t>(), box_points());
+  for (const json& end : rays["to_m"]) CHECK_EQ(end[0], doctest::Approx(90.0).epsilon(1e-4));
+
+  const json few = yard.get(target + "?margin_m=5&points=3&rays=2").json();
+  CHECK_LE(few["changed"][0]["positions_m"].size(), 3);
+  CHECK_LE(few["rays"][0]["to_m"].size(), 2);
+  CHECK_EQ(few["rays"][0]["count"], rays["count"]);
+  CHECK_NE(yard.get(target + "?rays=0").complaint_about("rays"), "");
+  CHECK_EQ(yard.get("/api/v1/changes/999/evidence").status, 404);
+}
+
+TEST_CASE("what was removed is proved by the rays of the scan that misses it") {
+  WatchedYard yard;
+  for (int i = 0; i < 3; ++i) yard.scan(kBox);
+  yard.scan();
+  const json stolen = yard.scan();
+  const json changes = yard.items("/api/v1/changes?reference=baseline&kind=removed");
+  REQUIRE_FALSE(changes.empty());
+  const json evidence = yard.get("/api/v1/changes/" + changes[0]["id"].dump() + "/evidence").json();
+  REQUIRE_FALSE(evidence["changed"].empty());
+  CHECK_NE(evidence["changed"][0]["scan"], stolen["id"]);
+  REQUIRE_EQ(evidence["rays"].size(), 1);
+  CHECK_EQ(evidence["rays"][0]["scan"], stolen["id"]);
+  CHECK_GE(evidence["rays"][0]["count"].get<std::size_t>(), box_points());
+}
+
 TEST_CASE("an action needs who does it, and a snooze an end that lies ahead") {
   WatchedYard yard;
   const std::string target = "/api/v1/alerts/" + yard.alert_of_box()["id"].dump();

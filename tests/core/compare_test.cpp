@@ -330,24 +330,31 @@ Taken coarse_scan(const Scene& scene, const Pose& world_from_sensor, Time captur
   return scan_of(scene, world_from_sensor, captured_at, seed, 3.0);
 }
 
+bool order_of_points_changes_nothing(std::uint32_t seed) {
+  const RandomRoom rooms = random_room(seed);
+  const Taken scan = coarse_scan(rooms.after, from(0, 0), kStart + 1h, seed);
+  const auto priors = list(coarse_scan(rooms.before, from(2, 1), kStart, seed + 1));
+  std::vector<std::size_t> order(scan.points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::shuffle(order.begin(), order.end(), std::mt19937(seed));
+  PointCloud points;
+  for (const std::size_t i : order) points.push_back(scan.points.x_m[i], scan.points.y_m[i], scan.points.z_m[i]);
+  Taken shuffled = taken(std::move(points), scan.world_from_sensor, scan.captured_at);
+  shuffled.sensor = scan.sensor;
+  const auto straight = compared(scan, priors, parameters(Grouping::consensus));
+  const auto mixed = compared(shuffled, priors, parameters(Grouping::consensus));
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (mixed.classes[i] != straight.classes[order[i]]) return false;
+  }
+  return mixed.counts == straight.counts;
+}
+
 TEST_CASE("the order of the points changes nothing") {
-  CHECK(rc::check([] {
-    const auto seed = *rc::gen::arbitrary<std::uint32_t>();
-    const RandomRoom rooms = random_room(seed);
-    const Taken scan = coarse_scan(rooms.after, from(0, 0), kStart + 1h, seed);
-    const auto priors = list(coarse_scan(rooms.before, from(2, 1), kStart, seed + 1));
-    std::vector<std::size_t> order(scan.points.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::shuffle(order.begin(), order.end(), std::mt19937(seed));
-    PointCloud points;
-    for (const std::size_t i : order) points.push_back(scan.points.x_m[i], scan.points.y_m[i], scan.points.z_m[i]);
-    Taken shuffled = taken(std::move(points), scan.world_from_sensor, scan.captured_at);
-    shuffled.sensor = scan.sensor;
-    const auto straight = compared(scan, priors, parameters(Grouping::consensus));
-    const auto mixed = compared(shuffled, priors, parameters(Grouping::consensus));
-    for (std::size_t i = 0; i < order.size(); ++i) RC_ASSERT(mixed.classes[i] == straight.classes[order[i]]);
-    RC_ASSERT(mixed.counts == straight.counts);
-  }));
+  CHECK(rc::check([] { RC_ASSERT(order_of_points_changes_nothing(*rc::gen::arbitrary<std::uint32_t>())); }));
+}
+
+TEST_CASE("the order of the points changes nothing of clusters of which only some points are looked at") {
+  for (const std::uint32_t seed : {249041, 249423}) CHECK(order_of_points_changes_nothing(seed));
 }
 
 TEST_CASE("the order of the priors changes nothing") {
