@@ -92,6 +92,10 @@ constexpr Route kRoutes[] = {
     {"GET", "/api/v1/deliveries", endpoints::list_deliveries, "Lists what was sent, or waits"},
     {"POST", "/api/v1/deliveries/{id}/retry", endpoints::retry_delivery, "Sends again what failed"},
 
+    {"GET", "/api/v1/storage", endpoints::get_storage, "What is stored, how much room is left, and for how long"},
+    {"GET", "/api/v1/storage/deletions", endpoints::list_deletions, "What was deleted, when and why"},
+    {"POST", "/api/v1/storage/retention/preview", endpoints::preview_retention, "What retention would delete"},
+
     {"POST", "/api/v1/backup", endpoints::create_backup, "Copies the running store"},
 };
 

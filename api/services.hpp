@@ -12,6 +12,7 @@
 #include "storage/channels.hpp"
 #include "storage/comparisons.hpp"
 #include "storage/formats/scan_file.hpp"
+#include "storage/retention_limits.hpp"
 #include "storage/scans.hpp"
 #include "storage/store.hpp"
 
@@ -72,6 +73,8 @@ struct DaemonStatus {
   std::uint64_t queue_length = 0, queue_limit = 0;
   std::uint64_t index_cache_bytes = 0, index_cache_limit_bytes = 0, index_cache_hits = 0, index_cache_misses = 0;
   std::uint64_t scans_ingested = 0, comparisons_finished = 0, comparisons_failed = 0;
+  std::uint64_t scans_deleted = 0, bytes_deleted = 0, events_deleted = 0;  ///< by retention
+  std::uint64_t folder_files_stored = 0, folder_files_known = 0, folder_files_failed = 0, folder_files_waiting = 0;
   std::uint64_t free_disk_bytes = 0, resident_bytes = 0;
   std::vector<DeliveryFigures> deliveries;
 };
@@ -83,6 +86,7 @@ struct Services {
   std::function<DaemonStatus()> status;
   std::function<Time()> now;
   std::function<void(const std::string&)> report = {};  ///< takes note of a request that failed by the daemon's fault
+  RetentionLimits retention_defaults = {};              ///< of sites that say nothing else
 };
 
 }  // namespace raywatch

@@ -57,6 +57,10 @@ std::vector<Event> events_after(const Snapshot& snapshot, EventId after, std::op
   return events;
 }
 
+EventId first_event(const Snapshot& snapshot) {
+  return database_of(snapshot).find<EventId>("SELECT min(id) FROM events").value_or(EventId{});
+}
+
 EventId last_event(const Snapshot& snapshot) {
   return database_of(snapshot).find<EventId>("SELECT max(id) FROM events").value_or(EventId{});
 }

@@ -178,6 +178,30 @@ std::uint64_t Payloads::stored_bytes(const PayloadRef& ref) const {
   return bytes;
 }
 
+PayloadUse Payloads::use_of(SiteId site) const {
+  PayloadUse use;
+  for (const std::string& file : impl_->files.on_disk_of(site)) {
+    std::error_code gone;
+    const std::uintmax_t size = std::filesystem::file_size(impl_->files.data_dir() / file, gone);
+    if (gone) continue;
+    std::uint64_t in_use = size;
+    try {
+      impl_->files.read(file, [&](Database* database) { in_use = database ? database->bytes_in_use() : 0; });
+    } catch (const CorruptData&) {
+      // Nothing of a damaged file is given back.
+    }
+    use.in_use_bytes += in_use;
+    use.freed_bytes += size - std::min<std::uint64_t>(in_use, size);
+  }
+  return use;
+}
+
+bool Payloads::deletions_wait() const {
+  bool waits = false;
+  impl_->writer.run([&] { waits = impl_->copies_running > 0; });
+  return waits;
+}
+
 PayloadRef Payloads::put_comparison(SiteId site, Time captured_at, const ComparisonPoints& points) {
   EncodedPayload payload;
   payload.kind = "comparison";

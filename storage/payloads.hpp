@@ -30,6 +30,12 @@ struct ComparisonPoints {
   std::vector<PriorPoint> prior_points;
 };
 
+/// What the payload files of a site hold.
+struct PayloadUse {
+  std::uint64_t in_use_bytes = 0;
+  std::uint64_t freed_bytes = 0;  ///< not given back to the disk yet
+};
+
 /// Points and point classes in one SQLite file per site and month.
 ///
 /// Scan points are kept bit-exact and in their order: planes, byte-shuffled and compressed with zstd, in chunks
@@ -48,6 +54,9 @@ class Payloads {
   std::vector<PointCloud> scan_points_around(const PayloadRef& ref, const DirectionCone& cone) const;
   Panorama scan_panorama(const PayloadRef& ref) const;
   std::uint64_t stored_bytes(const PayloadRef& ref) const;
+  PayloadUse use_of(SiteId site) const;
+  /// Deletions wait while the store is copied: what is asked for now is gone only then.
+  bool deletions_wait() const;
 
   PayloadRef put_comparison(SiteId site, Time captured_at, const ComparisonPoints& points);
   ComparisonPoints comparison_points(const PayloadRef& ref) const;

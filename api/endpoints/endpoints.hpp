@@ -93,6 +93,10 @@ HttpAnswer test_channel(Call& call);
 HttpAnswer list_deliveries(Call& call);
 HttpAnswer retry_delivery(Call& call);
 
+HttpAnswer get_storage(Call& call);
+HttpAnswer list_deletions(Call& call);
+HttpAnswer preview_retention(Call& call);
+
 HttpAnswer create_backup(Call& call);
 
 }  // namespace raywatch::endpoints

@@ -50,6 +50,19 @@ void add_daemon(MetricsText& metrics, const DaemonStatus& status) {
               status.comparisons_finished);
   metrics.add("raywatch_comparisons_failed_total", "counter", "Comparisons failed since the start.",
               status.comparisons_failed);
+  metrics.add("raywatch_retention_scans_deleted_total", "counter", "Scans that retention deleted since the start.",
+              status.scans_deleted);
+  metrics.add("raywatch_retention_bytes_deleted_total", "counter", "What these took.", status.bytes_deleted);
+  metrics.add("raywatch_retention_events_deleted_total", "counter", "Old events deleted since the start.",
+              status.events_deleted);
+  metrics.add("raywatch_folder_files_stored_total", "counter", "Files of watched folders stored since the start.",
+              status.folder_files_stored);
+  metrics.add("raywatch_folder_files_known_total", "counter", "Files that were stored already.",
+              status.folder_files_known);
+  metrics.add("raywatch_folder_files_failed_total", "counter", "Files that could not be taken in.",
+              status.folder_files_failed);
+  metrics.add("raywatch_folder_files_waiting", "gauge", "Files that lie in watched folders.",
+              status.folder_files_waiting);
   metrics.add("raywatch_index_cache_bytes", "gauge", "Memory of cached prior indexes.", status.index_cache_bytes);
   metrics.add("raywatch_index_cache_limit_bytes", "gauge", "Its limit.", status.index_cache_limit_bytes);
   metrics.add("raywatch_index_cache_hits_total", "counter", "Priors found in the cache.", status.index_cache_hits);

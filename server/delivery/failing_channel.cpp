@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "server/system_alerts.hpp"
-#include "server/whole_list.hpp"
 #include "storage/alerts.hpp"
+#include "storage/all_of_list.hpp"
 #include "storage/sites.hpp"
 
 namespace raywatch {
@@ -20,7 +20,7 @@ SystemSubject subject_of(const ChannelRecord& channel, SiteId site) {
 }
 
 std::vector<Site> all_sites(const Snapshot& snapshot) {
-  return whole_list([&](const PageRequest& page) { return list_sites(snapshot, page); });
+  return all_of_list([&](const PageRequest& page) { return list_sites(snapshot, page); });
 }
 
 std::vector<Site> sites_of(const Snapshot& snapshot, const ChannelRecord& channel) {

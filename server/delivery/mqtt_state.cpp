@@ -6,7 +6,7 @@
 #include "api/json.hpp"
 #include "api/render.hpp"
 #include "api/text_values.hpp"
-#include "server/whole_list.hpp"
+#include "storage/all_of_list.hpp"
 
 namespace raywatch {
 namespace {
@@ -17,7 +17,7 @@ constexpr std::size_t kListed = 20;
 std::vector<AlertRecord> standing_alerts(const Snapshot& snapshot, SiteId site) {
   std::vector<AlertRecord> all;
   for (const AlertState state : {AlertState::open, AlertState::acknowledged, AlertState::snoozed}) {
-    const auto some = whole_list(
+    const auto some = all_of_list(
         [&](const PageRequest& page) { return list_alerts(snapshot, {.site = site, .state = state}, page); });
     all.insert(all.end(), some.begin(), some.end());
   }
@@ -118,12 +118,12 @@ class SiteTopics {
 
 RetainedTopics mqtt_state(const Snapshot& snapshot, const MqttSettings& settings, std::optional<SiteId> of) {
   RetainedTopics topics;
-  for (const Site& site : whole_list([&](const PageRequest& page) { return list_sites(snapshot, page); })) {
+  for (const Site& site : all_of_list([&](const PageRequest& page) { return list_sites(snapshot, page); })) {
     if (of && *of != site.id) continue;
     SiteTopics of_site(snapshot, settings, site, topics);
     of_site.add_site();
     for (const Sensor& sensor :
-         whole_list([&](const PageRequest& page) { return list_sensors(snapshot, site.id, page); })) {
+         all_of_list([&](const PageRequest& page) { return list_sensors(snapshot, site.id, page); })) {
       of_site.add_sensor(sensor);
     }
   }

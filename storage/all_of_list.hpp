@@ -6,9 +6,9 @@
 
 namespace raywatch {
 
-/// All of a list, page by page. @param list (PageRequest) -> Page
+/// All of a list, page by page. @param list (PageRequest) -> Page.
 template <class List>
-auto whole_list(const List& list) {
+auto all_of_list(const List& list) {
   auto page = list(PageRequest{.limit = 1000, .cursor = {}});
   auto items = std::move(page.items);
   while (page.next) {
