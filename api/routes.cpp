@@ -130,6 +130,12 @@ std::vector<std::string> decoded_segments(std::string_view path) {
 
 std::span<const Route> routes() { return kRoutes; }
 
+bool belongs_to_api(std::string_view path) {
+  if (path == "/api" || path.starts_with("/api/")) return true;
+  const auto segments = decoded_segments(path);
+  return std::ranges::any_of(kRoutes, [&](const Route& route) { return matches(route.pattern, segments); });
+}
+
 RouteMatch find_route(std::string_view method, std::string_view path) {
   const auto segments = decoded_segments(path);
   const std::string_view wanted = method == "HEAD" ? "GET" : method;

@@ -34,6 +34,10 @@ void bind_http(ConfigReader& reader, HttpConfig& config) {
   reader.whole("http.min_client_bytes_per_s", config.min_client_bytes_per_s, {});
 }
 
+void bind_dashboard(ConfigReader& reader, HttpConfig& config) {
+  reader.path("dashboard.directory", config.dashboard_dir);
+}
+
 void bind_ingest(ConfigReader& reader, DaemonConfig& config) {
   reader.whole("ingest.queue_limit", config.queue_limit, {.min = 1, .max = 1'000'000});
   reader.duration("ingest.future_tolerance_s", config.future_tolerance, {.min = 0, .max = 86'400});
@@ -103,6 +107,7 @@ void bind_all(ConfigReader& reader, Settings& settings) {
   bind_storage(reader, settings.daemon);
   bind_retention(reader, settings.daemon.retention);
   bind_http(reader, settings.daemon.http);
+  bind_dashboard(reader, settings.daemon.http);
   bind_ingest(reader, settings.daemon);
   bind_folders(reader, settings.daemon.folders);
   bind_compare(reader, settings.daemon);
