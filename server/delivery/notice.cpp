@@ -39,7 +39,7 @@ Json alert_data(const Snapshot& snapshot, const DeliveryRecord& delivery, const 
   data["zone_name"] = zone ? Json(zone->name) : Json(nullptr);
   data["change"] = track ? render_figures(track->track.latest, origin_of(site)) : Json(nullptr);
   data["local_time"] = local_text(step.at, site.time_zone);
-  data["link"] = link_to(public_url, "/api/v1/alerts/" + std::to_string(alert.id.value));
+  data["link"] = link_to(public_url, "/alerts/" + std::to_string(alert.id.value));
   return data;
 }
 

@@ -54,7 +54,7 @@ TEST_CASE("a guard reads in a mail what happened, where, when and how large, wha
   const std::string text = mail["text"];
   CHECK(text.find("Where:    site Höfe") != std::string::npos);
   CHECK(text.find("State:    opened by raywatch; open, warning") != std::string::npos);
-  CHECK(text.find("https://watch.example.com/api/v1/alerts/" + std::to_string(alert.value)) != std::string::npos);
+  CHECK(text.find("https://watch.example.com/alerts/" + std::to_string(alert.value)) != std::string::npos);
   CHECK((text.find(" CET\n") != std::string::npos || text.find(" CEST\n") != std::string::npos));
 }
 

@@ -52,7 +52,7 @@ TEST_CASE("an alert is told with what a guard needs, signed, and each of its ste
   CHECK(body["data"]["site"] == "Höfe");
   CHECK(body["data"]["state"] == "open");
   CHECK(body["data"]["step"]["note"] == "as a test");
-  CHECK(body["data"]["link"] == "https://watch.example.com/api/v1/alerts/" + std::to_string(alert.value));
+  CHECK(body["data"]["link"] == "https://watch.example.com/alerts/" + std::to_string(alert.value));
   CHECK(json::parse(acknowledged.body)["data"]["state"] == "acknowledged");
   for (const DeliveryRecord& delivery : place.wait_until_ended(channel, 2)) {
     CHECK(delivery.state == DeliveryState::delivered);
