@@ -3,6 +3,7 @@
 #include <sstream>
 #include <streambuf>
 
+#include "api/dashboard.hpp"
 #include "api/guard.hpp"
 #include "api/listener.hpp"
 #include "api/problem.hpp"
@@ -33,6 +34,16 @@ HttpAnswer options_answer(std::string_view path) {
   return answer;
 }
 
+/// Whatever is no address of the API is the dashboard's.
+std::optional<HttpAnswer> dashboard_answer(const Dashboard& dashboard, const httplib::Request& request,
+                                           std::string_view path) {
+  if ((request.method != "GET" && request.method != "HEAD") || belongs_to_api(path)) return std::nullopt;
+  return dashboard.answer({.path = path,
+                           .accept = header_of(request, "Accept"),
+                           .accept_encoding = header_of(request, Listener::kAcceptEncoding),
+                           .if_none_match = header_of(request, "If-None-Match")});
+}
+
 HttpAnswer answer_of(const ExchangeContext& context, const httplib::Request& request, RequestBody& body) {
   const std::string_view target = request.target;
   const std::size_t question = target.find('?');
@@ -41,6 +52,7 @@ HttpAnswer answer_of(const ExchangeContext& context, const httplib::Request& req
   check_source({request.method, request.version, header_of(request, "Host"), header_of(request, "Origin")},
                is_loopback_host(context.config.host));
   if (request.method == "OPTIONS") return options_answer(path);
+  if (auto page = dashboard_answer(context.dashboard, request, path)) return *std::move(page);
   RouteMatch match = find_route(request.method, path);
   Listener& listener = context.listener;
   Call call{

@@ -6,12 +6,14 @@
 
 namespace raywatch {
 
+class Dashboard;
 class Listener;
 
 /// What stays the same for all requests.
 struct ExchangeContext {
   const Services& services;
   const HttpConfig& config;
+  const Dashboard& dashboard;
   HttpStatistics& statistics;
   StreamSlots& streams;
   Listener& listener;

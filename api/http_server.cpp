@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "api/call.hpp"
+#include "api/dashboard.hpp"
 #include "api/exchange.hpp"
 #include "api/guard.hpp"
 #include "api/listener.hpp"
@@ -16,19 +17,22 @@ struct HttpServer::Impl {
   Impl(const HttpConfig& given_config, const Services& given_services)
       : config(given_config),
         services(given_services),
+        dashboard(config.dashboard_dir.empty() ? Dashboard{} : Dashboard::read(config.dashboard_dir)),
         streams(std::max<std::size_t>(1, config.threads / 2)),
         listener(
             config.threads, {config.idle_timeout, config.stall_timeout, config.min_client_bytes_per_s},
             {.handle =
                  [this](const httplib::Request& request, httplib::Response& response,
                         const httplib::ContentReader* reader) {
-                   answer_request({services, config, statistics, streams, listener}, request, response, reader);
+                   answer_request({services, config, dashboard, statistics, streams, listener}, request, response,
+                                  reader);
                  },
              .refuse_early = [this](const httplib::Request& request,
                                     httplib::Response& response) { refuse_too_large(config, request, response); }}) {}
 
   const HttpConfig config;
   const Services services;
+  const Dashboard dashboard;
   HttpStatistics statistics;
   StreamSlots streams;
   Listener listener;

@@ -22,12 +22,14 @@ struct HttpConfig {
   std::chrono::milliseconds idle_timeout{5'000};    ///< a connection without a request is kept this long
   std::chrono::milliseconds stall_timeout{10'000};  ///< a client that sends or takes nothing for this long is dropped
   std::uint64_t min_client_bytes_per_s = 4096;      ///< and so is one that is slower than this, after that time
+  std::filesystem::path dashboard_dir = {};         ///< the built dashboard; empty: there is none
 };
 
 /// The REST API over HTTP. Listens from construction on; serves from `start` until `stop` or destruction.
 class HttpServer {
  public:
-  /// @throws InvalidInput for a host that is not loopback without `allow_remote`, or an address that cannot be bound.
+  /// @throws InvalidInput for a host that is not loopback without `allow_remote`, an address that cannot be bound, or a
+  ///         `dashboard_dir` without a built dashboard.
   HttpServer(const HttpConfig& config, const Services& services);
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;

@@ -176,11 +176,15 @@ void Listener::prepare(httplib::Request& request, Connection& connection) const 
   connection.begin_body();
   request.path = "/";
   request.params.clear();
-  // Ranges and compressed answers are left out: both may be, and the library would hold and compress a large answer as
-  // a whole before its first byte.
+  // Ranges and compressing are left out: both may be, and the library would hold and compress a large answer as a whole
+  // before its first byte. What lies there compressed already can still be asked for.
   request.ranges.clear();
   request.headers.erase("Range");
-  request.headers.erase("Accept-Encoding");
+  request.headers.erase(kAcceptEncoding);
+  if (request.has_header("Accept-Encoding")) {
+    request.headers.emplace(kAcceptEncoding, request.get_header_value("Accept-Encoding"));
+    request.headers.erase("Accept-Encoding");
+  }
 }
 
 }  // namespace raywatch

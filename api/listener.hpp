@@ -50,6 +50,8 @@ class Listener final : public httplib::Server {
   void keep_current_connection();
 
   static constexpr std::chrono::milliseconds kGrace{3000};
+  /// Under this name requests have what the client sent as Accept-Encoding, which the library must not see.
+  static constexpr const char* kAcceptEncoding = ":accept-encoding";
 
  private:
   class Served;

@@ -23,6 +23,11 @@ struct Route {
 /// Every route there is.
 std::span<const Route> routes();
 
+/// Whether an address is the API's, for whatever method: it lies in the API's prefix, or is a route beside it.
+/// @param path still percent-encoded.
+/// @throws HttpError (400) for a broken %-escape.
+bool belongs_to_api(std::string_view path);
+
 /// The route of a request and what its {...} stand for.
 struct RouteMatch {
   const Route* route = nullptr;

@@ -22,4 +22,9 @@ std::uint64_t free_disk_bytes(const std::filesystem::path& directory) {
 
 bool is_writable(const std::filesystem::path& directory) { return ::access(directory.c_str(), W_OK | X_OK) == 0; }
 
+std::filesystem::path program_dir() {
+  std::error_code failed;
+  return std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
+}
+
 }  // namespace raywatch

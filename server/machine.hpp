@@ -14,4 +14,7 @@ std::uint64_t free_disk_bytes(const std::filesystem::path& directory);
 /// True if files can be made in `directory`.
 bool is_writable(const std::filesystem::path& directory);
 
+/// The directory in which the running program lies; empty when the system does not say.
+std::filesystem::path program_dir();
+
 }  // namespace raywatch

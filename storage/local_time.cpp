@@ -7,7 +7,7 @@
 namespace raywatch {
 namespace {
 
-const date::time_zone& find_zone(const std::string& time_zone) {
+const date::time_zone& zone_named(const std::string& time_zone) {
   try {
     return *date::locate_zone(time_zone);
   } catch (const std::runtime_error&) {
@@ -18,14 +18,14 @@ const date::time_zone& find_zone(const std::string& time_zone) {
 }  // namespace
 
 LocalMoment local_moment(Time time, const std::string& time_zone) {
-  const auto local = find_zone(time_zone).to_local(date::floor<std::chrono::seconds>(time));
+  const auto local = zone_named(time_zone).to_local(date::floor<std::chrono::seconds>(time));
   const auto day = date::floor<date::days>(local);
   return {.weekday = static_cast<std::uint8_t>(date::weekday(day).iso_encoding() - 1),
           .second = static_cast<std::uint32_t>((local - day).count())};
 }
 
 ZoneClock zone_clock(const std::string& time_zone) {
-  const date::time_zone& zone = find_zone(time_zone);
+  const date::time_zone& zone = zone_named(time_zone);
   return {.to_local =
               [&zone](Time time) {
                 return LocalSeconds(zone.to_local(date::floor<std::chrono::seconds>(time)).time_since_epoch());
@@ -34,6 +34,10 @@ ZoneClock zone_clock(const std::string& time_zone) {
           .to_utc = [&zone](LocalSeconds local) -> Time {
             return zone.to_sys(date::local_seconds(local.time_since_epoch()), date::choose::earliest);
           }};
+}
+
+std::string local_text(Time time, const std::string& time_zone) {
+  return date::format("%F %T %Z", date::make_zoned(&zone_named(time_zone), date::floor<std::chrono::seconds>(time)));
 }
 
 }  // namespace raywatch

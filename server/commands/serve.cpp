@@ -14,6 +14,7 @@
 #include "server/commands/commands.hpp"
 #include "server/daemon.hpp"
 #include "server/log.hpp"
+#include "server/machine.hpp"
 #include "server/settings.hpp"
 
 namespace raywatch {
@@ -47,6 +48,15 @@ void set_address(const std::string& listen, HttpConfig& http) {
   if (http.host.starts_with('[') && http.host.ends_with(']')) http.host = http.host.substr(1, http.host.size() - 2);
 }
 
+/// The dashboard that lies beside the program, as it is built or installed; empty when there is none.
+std::filesystem::path dashboard_beside_program() {
+  for (const char* place : {"web", "../share/raywatch/web"}) {
+    const std::filesystem::path directory = (program_dir() / place).lexically_normal();
+    if (std::filesystem::is_regular_file(directory / "index.html")) return directory;
+  }
+  return {};
+}
+
 Settings settings_of(const Options& options) {
   Settings settings = options.config.empty() ? Settings{} : read_settings(options.config);
   if (options.data_dir) settings.daemon.data_dir = *options.data_dir;
@@ -54,6 +64,7 @@ Settings settings_of(const Options& options) {
   if (options.allow_remote) settings.daemon.http.allow_remote = true;
   if (options.log_format) settings.log.format = *options.log_format;
   if (options.log_level) settings.log.level = *options.log_level;
+  if (settings.daemon.http.dashboard_dir.empty()) settings.daemon.http.dashboard_dir = dashboard_beside_program();
   return settings;
 }
 
@@ -80,11 +91,13 @@ int run_serve(const Options& options) {
   Daemon daemon(settings.daemon);
   spdlog::info("listening on {}, data in {}", url_of(settings.daemon.http, daemon.port()),
                std::filesystem::absolute(settings.daemon.data_dir).string());
+  if (settings.daemon.http.dashboard_dir.empty()) spdlog::warn("there is no dashboard: scripts/build makes it");
   int signal = 0;
   sigwait(&stop_signals, &signal);
   spdlog::info("stopping on {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
-  if (daemon.stop() == StopOutcome::comparisons_abandoned) {
-    spdlog::warn("a comparison did not end in time; it is put back and starts again at the next start");
+  if (const StopOutcome outcome = daemon.stop(); outcome != StopOutcome::clean) {
+    spdlog::warn("a {} did not end in time; it is put back and starts again at the next start",
+                 outcome == StopOutcome::comparisons_abandoned ? "comparison" : "message");
     spdlog::shutdown();
     std::_Exit(kExitDone);  // its thread cannot be stopped, and the store is safe whenever the process ends
   }

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <fstream>
 #include <thread>
 #include <vector>
 
@@ -49,6 +50,37 @@ TEST_CASE("the program says that it is alive, ready, and what it does") {
   const Reply metrics = api.get("/metrics");
   CHECK_NE(metrics.body.find("\nraywatch_queue_length 0\n"), std::string::npos);
   CHECK_NE(metrics.body.find("raywatch_http_answers_total{status=\"2xx\"} 2\n"), std::string::npos);
+}
+
+TEST_CASE("the dashboard is served beside the API, and never in its place") {
+  const TempDir folder;
+  std::ofstream(folder / "index.html") << std::string(5000, 'x');
+  std::ofstream(folder / "index.html.gz") << "compressed once";
+  DaemonConfig config;
+  config.http.dashboard_dir = folder.path();
+  const ApiFixture api(std::move(config));
+  const auto ask = [&](const std::string& line, const std::string& more = "") {
+    return raw_answer(api, line + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + more + "\r\n");
+  };
+  const std::string browser = "Accept: text/html,*/*\r\nAccept-Encoding: gzip\r\n";
+  for (const char* path : {"/", "/alerts/7?tab=why", "/sensors/gate"}) {
+    const std::string page = ask(std::string("GET ") + path, browser);
+    CAPTURE(path);
+    CHECK(page.starts_with("HTTP/1.1 200"));
+    CHECK(page.ends_with("\r\n\r\ncompressed once"));
+    CHECK_NE(page.find("Content-Encoding: gzip\r\n"), std::string::npos);
+    CHECK_NE(page.find("Content-Security-Policy: default-src 'self'"), std::string::npos);
+    CHECK_NE(page.find("X-Content-Type-Options: nosniff\r\n"), std::string::npos);
+  }
+  const std::string head = ask("HEAD /", browser);
+  CHECK_NE(head.find("Content-Length: 15\r\n"), std::string::npos);
+  CHECK(head.ends_with("\r\n\r\n"));
+  CHECK(ask("GET /healthz", browser).ends_with("{\"status\":\"ok\"}"));
+  for (const char* line : {"GET /api/v1/nothing", "GET /api", "POST /alerts", "DELETE /"}) {
+    CAPTURE(line);
+    CHECK_NE(ask(line, browser + "Content-Length: 0\r\n").find("urn:raywatch:problem:no-such-route"),
+             std::string::npos);
+  }
 }
 
 TEST_CASE("an address that does not exist is a 404 problem") {

@@ -1,0 +1,3 @@
+import { simulateYard } from './build';
+
+export default (): void => simulateYard();

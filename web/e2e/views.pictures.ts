@@ -1,0 +1,37 @@
+// The pictures that stand in the README: `npm run pictures` makes them anew, from the tests' own scene.
+
+import { rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { kYardScans, simulateYard } from './support/build';
+import { expect, signIn, test } from './support/fixtures';
+
+const kPictures = new URL('../pictures/', import.meta.url).pathname;
+
+test('pictures of the main views', async ({ page, daemon }) => {
+  // The scene ends now, so that its times are those of a guard at work.
+  const folder = join(tmpdir(), 'raywatch-pictures');
+  rmSync(folder, { recursive: true, force: true });
+  simulateYard(folder, ['--start', new Date(Date.now() - (kYardScans / 2) * 30_000).toISOString()]);
+  await daemon.makeYard();
+  await daemon.upload(0, kYardScans, folder);
+  await signIn(page, 'anna');
+
+  await page.emulateMedia({ colorScheme: 'light' });
+  await page.setViewportSize({ width: 1280, height: 640 });
+  await page.goto(daemon.url);
+  await expect(page.getByRole('row').filter({ hasText: 'yard-2' })).toContainText('good');
+  await expect(page.locator('.alert-line').first()).toBeVisible();
+  await page.screenshot({ path: join(kPictures, 'overview.png') });
+
+  await page.emulateMedia({ colorScheme: 'dark' });
+  await page.setViewportSize({ width: 1280, height: 800 });
+  await page.goto(`${daemon.url}/alerts`);
+  await page.locator('.alert-row a').first().click();
+  await expect(page.getByRole('heading', { name: 'Who saw it' })).toBeVisible();
+  await page.screenshot({ path: join(kPictures, 'alerts.png') });
+
+  await page.setViewportSize({ width: 390, height: 800 });
+  await expect(page.getByRole('heading', { name: 'Who saw it' })).toBeVisible();
+  await page.screenshot({ path: join(kPictures, 'alert_narrow.png') });
+});

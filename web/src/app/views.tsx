@@ -1,0 +1,54 @@
+// The table of views. To add a page: a component in src/features/NAME/, and one line here. A view that is heavy, or
+// rarely opened, is loaded when it is first shown: `lazy(() => import(...))`. Where the link goes to another line with the
+// same component, that component stays and gets other properties.
+
+import { type ComponentType } from 'preact';
+import { AlertsView } from '../features/alerts/alerts_view';
+import { BaselinesView } from '../features/baselines/baselines_view';
+import { OverviewView } from '../features/overview/overview_view';
+import { ScanView } from '../features/scans/scan_view';
+import { ScansView } from '../features/scans/scans_view';
+import { SensorView } from '../features/sensors/sensor_view';
+import { SensorsView } from '../features/sensors/sensors_view';
+import { SilencesView } from '../features/silences/silences_view';
+import { type IconName } from '../ui/icon';
+import { matchPath } from './router';
+
+/** What the placeholders of the view's pattern stand for: `/alerts/:id` gives `{id}`. */
+export type ViewProps = Readonly<Record<string, string>>;
+
+export interface View {
+  readonly pattern: string;
+  readonly title: string;
+  readonly component: ComponentType<ViewProps>;
+  /** Views without it are reached from others. */
+  readonly menu?: { readonly icon: IconName };
+}
+
+const view = (pattern: string, title: string, component: ComponentType<never>, menu?: View['menu']): View => ({
+  pattern,
+  title,
+  component: component as ComponentType<ViewProps>,
+  ...(menu ? { menu } : {}),
+});
+
+export const kViews: readonly View[] = [
+  view('/', 'Overview', OverviewView, { icon: 'overview' }),
+  view('/alerts', 'Alerts', AlertsView, { icon: 'alert' }),
+  view('/alerts/:id', 'Alert', AlertsView),
+  view('/scans', 'Scans', ScansView, { icon: 'scan' }),
+  view('/scans/:id', 'Scan', ScanView),
+  view('/sensors', 'Sensors', SensorsView, { icon: 'sensor' }),
+  view('/sensors/:name', 'Sensor', SensorView),
+  view('/baselines', 'Baselines', BaselinesView, { icon: 'baseline' }),
+  view('/silences', 'Silences', SilencesView, { icon: 'silence' }),
+];
+
+/** The view that a path shows, with what its placeholders stand for. */
+export function viewAt(path: string): { view: View | undefined; values: Record<string, string> } {
+  for (const view of kViews) {
+    const values = matchPath(view.pattern, path);
+    if (values) return { view, values };
+  }
+  return { view: undefined, values: {} };
+}

@@ -1,0 +1,119 @@
+// Why an alert was raised: the rule as it was then, the change's figures, who saw it, and what it was compared with.
+
+import { type Schema } from '../../lib/api';
+import { count, counted, duration, percent, placeMetres, sizeMetres, volume } from '../../lib/format';
+import { KindBadge } from '../../ui/badges';
+import { Time } from '../../ui/time';
+import { ViewLink } from '../../ui/view_link';
+import { ruleInWords } from './rule_words';
+import { SightStrip } from './sight_strip';
+
+type Reason = Schema<'AlertReason'>;
+
+export function Why({ alert, why }: { alert: Schema<'Alert'>; why: Reason }) {
+  return (
+    <>
+      <section class="alert-part">
+        <h3>Why</h3>
+        <p>
+          By the rule{' '}
+          <b>
+            {alert.rule === null ? why.rule.name : <ViewLink to={`/rules/${alert.rule}`}>{why.rule.name}</ViewLink>}
+          </b>
+          : {ruleInWords(why.rule)}.
+        </p>
+        <Figures alert={alert} track={why.track} />
+        <p class="actions">
+          {why.changes.map((change) => (
+            <ViewLink key={change} to={`/changes/${change}`}>
+              Change {change}
+            </ViewLink>
+          ))}
+          <ViewLink to={`/history?site=${encodeURIComponent(alert.site)}&point=${why.track.centroid_m.join(',')}`}>
+            This place through time
+          </ViewLink>
+        </p>
+      </section>
+      <section class="alert-part">
+        <h3>Who saw it</h3>
+        <SightStrip observations={why.observations} site={alert.site} />
+        {why.priors.length > 0 && (
+          <p class="muted">
+            Compared with{' '}
+            {[...why.priors]
+              .sort((one, other) => one - other)
+              .map((scan, index) => (
+                <span key={scan}>
+                  {index > 0 && ', '}
+                  <ViewLink to={`/scans/${scan}`}>scan {scan}</ViewLink>
+                </span>
+              ))}
+            {alert.scan !== null && (
+              <>
+                ; opened by <ViewLink to={`/scans/${alert.scan}`}>scan {alert.scan}</ViewLink>
+              </>
+            )}
+            .
+          </p>
+        )}
+      </section>
+    </>
+  );
+}
+
+function Figures({ alert, track }: { alert: Schema<'Alert'>; track: Schema<'Track'> }) {
+  return (
+    <dl class="figures">
+      <div>
+        <dt>Kind</dt>
+        <dd>
+          <KindBadge kind={track.kind} />
+        </dd>
+      </div>
+      <div>
+        <dt>Size</dt>
+        <dd>{sizeMetres(track.size_m)}</dd>
+      </div>
+      <div>
+        <dt>Volume of its box</dt>
+        <dd>{volume(track.volume_m3)}</dd>
+      </div>
+      <div>
+        <dt>Place</dt>
+        <dd>{placeMetres(track.centroid_m)}</dd>
+      </div>
+      <div>
+        <dt>Points</dt>
+        <dd>{counted(track.points, 'point')}</dd>
+      </div>
+      <div>
+        <dt>Confidence</dt>
+        <dd
+          title={`seen free ${percent(track.confidence.free)}, supported ${percent(track.confidence.supported)}, could not tell ${percent(track.confidence.unknown)}`}
+        >
+          {percent(track.confidence.value)}
+        </dd>
+      </div>
+      <div>
+        <dt>First seen</dt>
+        <dd>
+          <Time at={track.first_seen_at} site={alert.site} />
+        </dd>
+      </div>
+      <div>
+        <dt>Last seen</dt>
+        <dd>
+          <Time at={track.last_seen_at} site={alert.site} />
+        </dd>
+      </div>
+      <div>
+        <dt>Lasted</dt>
+        <dd>
+          {duration((Date.parse(track.last_seen_at) - Date.parse(track.first_seen_at)) / 1000)}, in{' '}
+          {counted(track.seen, 'scan')}
+          {track.absent > 0 && `; absent in ${count(track.absent)}`}
+        </dd>
+      </div>
+    </dl>
+  );
+}

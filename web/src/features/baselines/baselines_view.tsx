@@ -1,0 +1,127 @@
+// What counts as normal at each site: every version, by whom, when and why; and learning it anew.
+
+import { useState } from 'preact/hooks';
+import { loader, setQuery, showProblem, showToast, useResource, useSelect } from '../../app/app';
+import { withOperator } from '../../app/operator';
+import { useSites } from '../../app/sites';
+import { address, type Schema, send } from '../../lib/api';
+import { counted, placeMetres } from '../../lib/format';
+import { Problem } from '../../lib/problem';
+import { StateBadge } from '../../ui/badges';
+import { type Column, DataTable } from '../../ui/data_table';
+import { EmptyState } from '../../ui/states';
+import { Time } from '../../ui/time';
+import { ConfirmDialog } from '../alerts/dialogs';
+
+type Baseline = Schema<'Baseline'>;
+
+const kColumns: readonly Column<Baseline>[] = [
+  { head: 'Version', cell: ({ version }) => version, numeric: true },
+  { head: 'Kind', cell: ({ kind }) => <StateBadge>{kind}</StateBadge> },
+  { head: 'Made', cell: ({ made_at, site }) => <Time at={made_at} site={site} /> },
+  { head: 'By', cell: ({ by }) => by },
+  { head: 'Why', cell: ({ note }) => note, essential: false },
+  { head: 'Scans that stand for it', cell: (baseline) => <Entries baseline={baseline} />, essential: false },
+];
+
+function Entries({ baseline }: { baseline: Baseline }) {
+  if (baseline.entries.length === 0) return <span class="muted">none: nothing is normal yet</span>;
+  return (
+    <details>
+      <summary>{counted(baseline.entries.length, 'entry', 'entries')}</summary>
+      <ul>
+        {baseline.entries.map((entry, index) => (
+          <li key={index}>
+            <a href={`/scans/${entry.scan}`}>scan {entry.scan}</a>, vantage {entry.vantage}, {entry.origin},{' '}
+            {entry.region_m === null
+              ? 'all of it'
+              : `from ${placeMetres(entry.region_m.min)} to ${placeMetres(entry.region_m.max)}`}
+          </li>
+        ))}
+      </ul>
+    </details>
+  );
+}
+
+export function BaselinesView() {
+  const sites = useSites();
+  const query = useSelect((state) => state.location.query);
+  const site = query['site'] ?? sites[0]?.name;
+  const page = useResource(
+    site === undefined
+      ? undefined
+      : address('/api/v1/baselines', { query: { site, cursor: query['cursor'], limit: 50 } }),
+  );
+  const [asking, setAsking] = useState(false);
+  return (
+    <>
+      <div class="view-head">
+        <h1>Baselines</h1>
+        <span class="muted">what counts as normal</span>
+      </div>
+      {site === undefined ? (
+        <div class="panel">
+          <EmptyState title="There is no site yet." />
+        </div>
+      ) : (
+        <DataTable
+          caption={`versions of what is normal at ${site}`}
+          page={page}
+          columns={kColumns}
+          rowKey={({ version }) => version}
+          searchText={({ by, note, kind }) => `${by} ${note} ${kind}`}
+          filters={
+            <>
+              <select
+                aria-label="Site"
+                value={site}
+                onChange={(event) => setQuery({ cursor: undefined, site: event.currentTarget.value })}
+              >
+                {sites.map(({ name }) => (
+                  <option key={name} value={name}>
+                    {name}
+                  </option>
+                ))}
+              </select>
+              <button type="button" onClick={() => setAsking(true)}>
+                Learn anew …
+              </button>
+            </>
+          }
+          empty={
+            <div class="panel">
+              <EmptyState title="Nothing is normal yet.">
+                <p>It is learned from the first scans of each vantage.</p>
+              </EmptyState>
+            </div>
+          }
+        />
+      )}
+      {asking && site !== undefined && (
+        <ConfirmDialog
+          draft=""
+          title={`Learn anew what is normal at ${site}`}
+          words="Nothing is normal from now on, and the next scans of each vantage are learned. Until then nothing raises an alert there. Versions before stay in this list."
+          doIt="Learn anew"
+          onClose={() => setAsking(false)}
+          onConfirm={(note) => {
+            setAsking(false);
+            withOperator((by) => void learnAnew(site, by, note));
+          }}
+        />
+      )}
+    </>
+  );
+}
+
+async function learnAnew(site: string, by: string, note: string): Promise<void> {
+  try {
+    const body = { by, mode: 'learn' as const, ...(note === '' ? {} : { note }) };
+    await send('post', '/api/v1/baselines/{name}/accept', { path: { name: site }, body });
+    showToast('good', `What is normal at ${site} is learned anew.`);
+  } catch (failure) {
+    if (!(failure instanceof Problem)) throw failure;
+    showProblem(failure);
+  }
+  loader.invalidate((key) => key.startsWith('/api/v1/baselines'));
+}

@@ -1,0 +1,79 @@
+import { setQuery, useResource, useSelect } from '../../app/app';
+import { useSites } from '../../app/sites';
+import { address, type Schema } from '../../lib/api';
+import { duration, metres, placeMetres } from '../../lib/format';
+import { type Column, DataTable } from '../../ui/data_table';
+import { EmptyState } from '../../ui/states';
+
+type Sensor = Schema<'Sensor'>;
+
+const kColumns: readonly Column<Sensor>[] = [
+  { head: 'Sensor', cell: ({ name }) => <a href={`/sensors/${encodeURIComponent(name)}`}>{name}</a> },
+  { head: 'Site', cell: ({ site }) => site },
+  {
+    head: 'Stands at',
+    cell: ({ pose }) => (pose ? placeMetres(pose.position_m) : <span class="muted">each scan says where</span>),
+    essential: false,
+  },
+  {
+    head: 'Usable range',
+    cell: ({ min_range_m, max_range_m }) =>
+      min_range_m === null && max_range_m === null ? (
+        <span class="muted">by the profile</span>
+      ) : (
+        `${min_range_m === null ? '0 m' : metres(min_range_m)} to ${max_range_m === null ? 'any' : metres(max_range_m)}`
+      ),
+    essential: false,
+  },
+  {
+    head: 'A scan every',
+    cell: ({ interval_s }) => (interval_s === null ? <span class="muted">not said</span> : duration(interval_s)),
+  },
+];
+
+export function SensorsView() {
+  const site = useSelect((state) => state.location.query['site']);
+  const cursor = useSelect((state) => state.location.query['cursor']);
+  const sites = useSites();
+  const page = useResource(address('/api/v1/sensors', { query: { site, cursor, limit: 200 } }));
+  return (
+    <>
+      <div class="view-head">
+        <h1>Sensors</h1>
+      </div>
+      <DataTable
+        caption="sensors"
+        page={page}
+        columns={kColumns}
+        rowKey={({ name }) => name}
+        searchText={({ name, site: at }) => `${name} ${at}`}
+        filters={
+          sites.length > 1 && (
+            <select
+              aria-label="Site"
+              value={site ?? ''}
+              onChange={(event) => setQuery({ cursor: undefined, site: event.currentTarget.value || undefined })}
+            >
+              <option value="">all sites</option>
+              {sites.map(({ name }) => (
+                <option key={name} value={name}>
+                  {name}
+                </option>
+              ))}
+            </select>
+          )
+        }
+        empty={
+          <div class="panel">
+            <EmptyState title="There is no sensor yet.">
+              <p>
+                One is made with its first scan:{' '}
+                <code>raywatch ingest scans/*.pcd --site yard --sensor mast --create</code>
+              </p>
+            </EmptyState>
+          </div>
+        }
+      />
+    </>
+  );
+}
