@@ -41,7 +41,8 @@ struct ChangeExtent {
 /// The volumes between two epochs in one zone.
 struct ZoneVolumes {
   /// Over the cells that surely changed (|rise| > LoD95) and their eight neighbours, in which a change tapers off below
-  /// what can be told; each cell counts for cut or for fill by its own rise.
+  /// what can be told; each cell counts for cut or for fill by its own rise. Their
+  /// intervals, and that of `changed_net`, are somewhat too narrow: see tests/evaluate/VOLUMES.md.
   VolumeFigure cut, fill;
   VolumeFigure changed_net;  ///< fill - cut, with what their errors have in common
   /// Over all cells seen in both epochs, changed or not: free of the bias that a threshold brings (Anderson 2019), but
