@@ -90,7 +90,8 @@ bool Connection::wait_for(short event, Meter& meter) const {
     const int ready = ::poll(&events, 1, static_cast<int>(left.count()));
     meter.waited += Clock::now() - start;
     if (ready > 0) return true;
-    if (ready < 0 && errno != EINTR) return false;
+    // That was all the patience there is: what a client earned by being quick is none for taking nothing at all.
+    if (ready == 0 || errno != EINTR) return false;
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: only .cpp files of api/ include this.
+// Heavy: only .cpp files include this.
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>

@@ -57,4 +57,12 @@ AlertRecord alert_with(const Snapshot& snapshot, AlertId id) {
   return required(find_alert(snapshot, id), "alert " + std::to_string(id.value));
 }
 
+ChannelRecord channel_with(const Snapshot& snapshot, ChannelId id) {
+  return required(find_channel(snapshot, id), "channel " + std::to_string(id.value));
+}
+
+DeliveryRecord delivery_with(const Snapshot& snapshot, DeliveryId id) {
+  return required(find_delivery(snapshot, id), "delivery " + std::to_string(id.value));
+}
+
 }  // namespace raywatch

@@ -7,7 +7,9 @@
 
 #include "core/error.hpp"
 #include "storage/alerts.hpp"
+#include "storage/channels.hpp"
 #include "storage/comparisons.hpp"
+#include "storage/deliveries.hpp"
 #include "storage/rules.hpp"
 #include "storage/scans.hpp"
 #include "storage/sensors.hpp"
@@ -29,6 +31,8 @@ RuleRecord rule_with(const Snapshot& snapshot, RuleId id);
 SilenceRecord silence_with(const Snapshot& snapshot, SilenceId id);
 TrackRecord track_with(const Snapshot& snapshot, TrackId id);
 AlertRecord alert_with(const Snapshot& snapshot, AlertId id);
+ChannelRecord channel_with(const Snapshot& snapshot, ChannelId id);
+DeliveryRecord delivery_with(const Snapshot& snapshot, DeliveryId id);
 /// @}
 
 /// The id in a path. What is no id names nothing. @throws NotFound.

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal: only .cpp files of api/ include this.
+// Heavy: only .cpp files include this.
 #include <Eigen/Core>
 #include <optional>
 #include <string>
@@ -10,7 +10,10 @@
 #include "core/time.hpp"
 #include "storage/alerts.hpp"
 #include "storage/baselines.hpp"
+#include "storage/channels.hpp"
 #include "storage/comparisons.hpp"
+#include "storage/deletions.hpp"
+#include "storage/deliveries.hpp"
 #include "storage/events.hpp"
 #include "storage/rules.hpp"
 #include "storage/scans.hpp"
@@ -31,6 +34,7 @@ Json render(const std::optional<Time>& time);
 Eigen::Vector3d origin_of(const Site& site);
 
 /// @{ The records, as JSON. The snapshot gives the names and the other records that they show.
+Json render(const RetentionLimits& limits);
 Json render(const Site& site);
 Json render(const Snapshot& snapshot, const Sensor& sensor);
 Json render(const Snapshot& snapshot, const ScanRecord& scan);
@@ -49,6 +53,9 @@ Json render(const Snapshot& snapshot, const AlertRecord& alert);
 Json render(const AlertHistoryStep& step);
 Json render(const Snapshot& snapshot, const BaselineVersion& version);  ///< with its entries
 Json render(const Snapshot& snapshot, const Event& event);
+Json render(const Snapshot& snapshot, const ChannelRecord& channel);  ///< without its secrets
+Json render(const Snapshot& snapshot, const DeliveryRecord& delivery);
+Json render(const Snapshot& snapshot, const DeletionRecord& deletion);
 /// @}
 
 /// The id of something, or null.

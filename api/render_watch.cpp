@@ -188,4 +188,18 @@ Json render(const Snapshot& snapshot, const Event& event) {
           {"text", event.text}};
 }
 
+Json render(const Snapshot& snapshot, const DeletionRecord& deletion) {
+  return {{"id", deletion.id},
+          {"at", format_rfc3339(deletion.at)},
+          {"what", deletion.what},
+          {"reason", to_string(deletion.reason)},
+          {"site", site_or_null(snapshot, deletion.site)},
+          {"sensor", sensor_or_null(snapshot, deletion.sensor)},
+          {"scan", id_or_null(deletion.scan)},
+          {"captured_at", render(deletion.captured_at)},
+          {"received_at", render(deletion.received_at)},
+          {"records", deletion.records},
+          {"bytes", deletion.bytes}};
+}
+
 }  // namespace raywatch

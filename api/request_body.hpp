@@ -31,6 +31,7 @@ class RequestBody {
 
   const std::string& content_type() const { return framing_.content_type; }
   bool present() const { return framing_.present; }
+  const std::optional<std::uint64_t>& length() const { return framing_.length; }  ///< as announced
   bool finished() const { return finished_ || !framing_.present; }  ///< nothing of it is left on the connection
 
   /// Hands the content to `take` piece by piece.

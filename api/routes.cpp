@@ -83,6 +83,19 @@ constexpr Route kRoutes[] = {
     {"GET", "/api/v1/events", endpoints::stream_events, "Everything that happens, as it happens"},
     {"GET", "/api/v1/events/log", endpoints::list_events, "Everything that happened, in order"},
 
+    {"POST", "/api/v1/channels", endpoints::create_channel, "Makes a channel by which others are told"},
+    {"GET", "/api/v1/channels", endpoints::list_channels, "Lists the channels"},
+    {"GET", "/api/v1/channels/{id}", endpoints::get_channel, "One channel"},
+    {"PUT", "/api/v1/channels/{id}", endpoints::replace_channel, "Replaces a channel"},
+    {"DELETE", "/api/v1/channels/{id}", endpoints::delete_channel, "Deletes a channel"},
+    {"POST", "/api/v1/channels/{id}/test", endpoints::test_channel, "Sends a test message at once"},
+    {"GET", "/api/v1/deliveries", endpoints::list_deliveries, "Lists what was sent, or waits"},
+    {"POST", "/api/v1/deliveries/{id}/retry", endpoints::retry_delivery, "Sends again what failed"},
+
+    {"GET", "/api/v1/storage", endpoints::get_storage, "What is stored, how much room is left, and for how long"},
+    {"GET", "/api/v1/storage/deletions", endpoints::list_deletions, "What was deleted, when and why"},
+    {"POST", "/api/v1/storage/retention/preview", endpoints::preview_retention, "What retention would delete"},
+
     {"POST", "/api/v1/backup", endpoints::create_backup, "Copies the running store"},
 };
 

@@ -4,12 +4,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/time.hpp"
+#include "storage/channels.hpp"
 #include "storage/comparisons.hpp"
 #include "storage/formats/scan_file.hpp"
+#include "storage/retention_limits.hpp"
 #include "storage/scans.hpp"
 #include "storage/store.hpp"
 
@@ -27,6 +30,14 @@ struct UploadResult {
   bool already_stored = false;  ///< every scan was there before, with the same bytes
 };
 
+/// How the test of a channel went.
+struct ChannelTest {
+  bool delivered = false;
+  std::optional<std::int64_t> response_code;
+  std::string error;  ///< empty when it was delivered
+  double took_ms = 0.0;
+};
+
 /// What an operator asks for, carried out by the daemon. Every function is thread-safe and throws `core/error.hpp`.
 struct Commands {
   /// Decodes, stores durably, and queues the comparison with the reference `previous`. Overloaded when the queue is
@@ -42,6 +53,17 @@ struct Commands {
   std::function<void(ScanId)> delete_scan;
   /// Copies the running store into a directory on the daemon's machine.
   std::function<void(const std::filesystem::path&)> backup;
+  /// Sends a test message at once.
+  std::function<ChannelTest(ChannelId)> test_channel;
+  /// Deletes a channel, and resolves the alerts about it.
+  std::function<void(ChannelId)> delete_channel;
+};
+
+/// Messages to the channels of one kind.
+struct DeliveryFigures {
+  ChannelKind kind = ChannelKind::webhook;
+  std::uint64_t pending = 0;                ///< now
+  std::uint64_t delivered = 0, failed = 0;  ///< since the start
 };
 
 /// What `/readyz` and `/metrics` report of the daemon.
@@ -51,7 +73,10 @@ struct DaemonStatus {
   std::uint64_t queue_length = 0, queue_limit = 0;
   std::uint64_t index_cache_bytes = 0, index_cache_limit_bytes = 0, index_cache_hits = 0, index_cache_misses = 0;
   std::uint64_t scans_ingested = 0, comparisons_finished = 0, comparisons_failed = 0;
+  std::uint64_t scans_deleted = 0, bytes_deleted = 0, events_deleted = 0;  ///< by retention
+  std::uint64_t folder_files_stored = 0, folder_files_known = 0, folder_files_failed = 0, folder_files_waiting = 0;
   std::uint64_t free_disk_bytes = 0, resident_bytes = 0;
+  std::vector<DeliveryFigures> deliveries;
 };
 
 /// Everything that the HTTP endpoints are given.
@@ -61,6 +86,7 @@ struct Services {
   std::function<DaemonStatus()> status;
   std::function<Time()> now;
   std::function<void(const std::string&)> report = {};  ///< takes note of a request that failed by the daemon's fault
+  RetentionLimits retention_defaults = {};              ///< of sites that say nothing else
 };
 
 }  // namespace raywatch

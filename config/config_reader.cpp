@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -53,7 +54,8 @@ std::string read_all(const std::filesystem::path& file) {
 struct ConfigReader::Impl {
   std::string name;
   toml::table root;
-  std::vector<std::string> known;  ///< bound keys, in order
+  std::vector<std::string> known;   ///< bound keys, in order
+  std::vector<std::string> arrays;  ///< known arrays of tables
   std::vector<std::string> changed;
   std::vector<FieldError> errors;
 
@@ -99,6 +101,7 @@ struct ConfigReader::Impl {
   }
 
   void refuse_unknown(const toml::table& table, const std::string& prefix);
+  bool refuse_unknown_in_array(const toml::node& node, const std::string& path);
 };
 
 ConfigReader::ConfigReader(std::string_view toml, std::string name) : impl_(std::make_unique<Impl>()) {
@@ -164,11 +167,44 @@ void ConfigReader::mebibytes(std::string_view key, std::uint64_t& bytes, Allowed
   bytes = count * kMebibyte;
 }
 
+std::vector<std::string> ConfigReader::tables(std::string_view key) {
+  impl_->arrays.emplace_back(key);
+  std::vector<std::string> names;
+  const toml::node* node = impl_->root.at_path(key).node();
+  if (node == nullptr) return names;
+  if (!node->is_array_of_tables()) {
+    impl_->wrong_type(key, *node, ("an array of tables, [[" + std::string(key) + "]]").c_str());
+    return names;
+  }
+  for (std::size_t i = 0; i < node->as_array()->size(); ++i) {
+    names.push_back(std::string(key) + "[" + std::to_string(i) + "]");
+  }
+  return names;
+}
+
+void ConfigReader::require(std::string_view key) {
+  if (impl_->root.at_path(key)) return;
+  impl_->fail(key, *impl_->root.at_path(parent_of(std::string(key))).node(), "is missing");
+}
+
+/// @returns whether the path is that of a known array.
+bool ConfigReader::Impl::refuse_unknown_in_array(const toml::node& node, const std::string& path) {
+  if (std::ranges::find(arrays, path) == arrays.end()) return false;
+  if (!node.is_array_of_tables()) return true;  // which was said when it was bound
+  std::size_t i = 0;
+  for (const toml::node& element : *node.as_array()) {
+    refuse_unknown(*element.as_table(), path + "[" + std::to_string(i++) + "]");
+  }
+  return true;
+}
+
 void ConfigReader::Impl::refuse_unknown(const toml::table& table, const std::string& prefix) {
   std::set<std::string> tables;
   for (const std::string& key : known) tables.insert(parent_of(key));
+  for (const std::string& key : arrays) tables.insert(parent_of(key));
   for (const auto& [key, node] : table) {
     const std::string path = prefix.empty() ? std::string(key.str()) : prefix + "." + std::string(key.str());
+    if (refuse_unknown_in_array(node, path)) continue;
     if (tables.contains(path)) {
       node.is_table() ? refuse_unknown(*node.as_table(), path) : wrong_type(path, node, "a table");
       continue;

@@ -72,6 +72,11 @@ class ConfigReader {
     value = std::chrono::duration<std::int64_t, Ratio>(count);
   }
 
+  /// The tables of an array of tables, "[[key]]", by the names with which their keys are bound: "key[0]", "key[1]", ...
+  std::vector<std::string> tables(std::string_view key);
+  /// An error unless the file has the key; of a table of such an array.
+  void require(std::string_view key);
+
   /// Ends the reading: keys and tables of the file that no field was bound to are errors too.
   /// @throws InvalidInput when there was any error; its `fields` are the keys with their lines and reasons.
   void finish();

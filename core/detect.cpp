@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/asking.hpp"
+#include "core/detect_points.hpp"
 #include "core/error.hpp"
 #include "core/fold.hpp"
 #include "core/grow.hpp"
@@ -29,7 +30,8 @@ class Detector {
     for (const ScanView& prior : priors) epochs_.push_back(epoch_of(prior, scan, parameters.contemporary_tolerance));
   }
 
-  Detection run() {
+  /// One way: the scan's points against the priors.
+  Detection run_points() {
     Detection detection;
     warn(detection);
     const std::vector<std::uint8_t> valid = valid_points(scan_);
@@ -38,10 +40,15 @@ class Detector {
     detection.classes = fold(valid, detection.answers);
     grow_over_scan(detection);
     count_answers(valid, detection);
+    for (const ScanView& prior : priors_) detection.angle_rad.push_back(asking_.angle_rad(prior));
+    return detection;
+  }
+
+  Detection run() {
+    Detection detection = run_points();
     PriorChanges changes = find_prior_changes(scan_, priors_, asking_);
     detection.prior_points = std::move(changes.points);
     detection.prior_votes = std::move(changes.votes);
-    for (const ScanView& prior : priors_) detection.angle_rad.push_back(asking_.angle_rad(prior));
     return detection;
   }
 
@@ -188,6 +195,11 @@ void check(const CompareParameters& parameters, std::size_t priors) {
 Detection detect(const ScanView& scan, std::span<const ScanView> priors, const CompareParameters& parameters) {
   check(parameters, priors.size());
   return Detector(scan, priors, parameters).run();
+}
+
+Detection detect_points(const ScanView& scan, std::span<const ScanView> priors, const CompareParameters& parameters) {
+  check(parameters, priors.size());
+  return Detector(scan, priors, parameters).run_points();
 }
 
 }  // namespace raywatch

@@ -13,6 +13,7 @@
 #include "server/machine.hpp"
 #include "server/system_alerts.hpp"
 #include "storage/alerts.hpp"
+#include "storage/all_of_list.hpp"
 #include "storage/scans.hpp"
 #include "storage/sensors.hpp"
 #include "storage/sites.hpp"
@@ -22,18 +23,6 @@ namespace {
 
 /// A sensor is silent when nothing came for so many of its intervals: a scan may be under way.
 constexpr double kSilentIntervals = 2.0;
-
-/// All of a list, page by page.
-template <class List>
-auto all_of(const List& list) {
-  auto page = list(PageRequest{.limit = 1000, .cursor = {}});
-  auto items = std::move(page.items);
-  while (page.next) {
-    page = list(PageRequest{.limit = 1000, .cursor = page.next});
-    items.insert(items.end(), page.items.begin(), page.items.end());
-  }
-  return items;
-}
 
 /// A sensor with an interval, and when its last scan came; without one, when it was made.
 struct HeardSensor {
@@ -54,7 +43,7 @@ SystemSubject silence_of(const Sensor& sensor) {
 std::vector<HeardSensor> heard_sensors(const Snapshot& snapshot) {
   std::vector<HeardSensor> heard;
   for (const Sensor& sensor :
-       all_of([&](const PageRequest& page) { return list_sensors(snapshot, std::nullopt, page); })) {
+       all_of_list([&](const PageRequest& page) { return list_sensors(snapshot, std::nullopt, page); })) {
     if (!sensor.interval_s) continue;
     const Page<ScanRecord> last = list_scans(snapshot, {.sensor = sensor.id}, {.limit = 1, .cursor = {}});
     const SystemSubject subject = silence_of(sensor);
@@ -108,7 +97,7 @@ void Caretaker::look_after_disk(Time now) {
     return SystemSubject{.site = site.id, .cause = "disk-low", .subject = "disk", .zone = {}, .sensor = {}};
   };
   const auto sites = store_.read([&](const Snapshot& snapshot) {
-    auto all = all_of([&](const PageRequest& page) { return list_sites(snapshot, page); });
+    auto all = all_of_list([&](const PageRequest& page) { return list_sites(snapshot, page); });
     std::erase_if(all, [&](const Site& site) {
       const SystemSubject subject = subject_of(site);
       return standing_alert(snapshot, subject.site, subject.cause, subject.subject).has_value() == is_low;
@@ -130,17 +119,27 @@ void Caretaker::look_after_disk(Time now) {
   });
 }
 
-CaretakerThread::CaretakerThread(Caretaker& caretaker, std::function<Time()> now)
-    : thread_([&caretaker, now = std::move(now)](const std::stop_token& stop) {
+CaretakerThread::CaretakerThread(Caretaker& caretaker, RetentionKeeper& retention, std::function<Time()> now)
+    : thread_([&caretaker, &retention, now = std::move(now)](const std::stop_token& stop) {
         std::mutex mutex;
         std::condition_variable_any stopped;
         std::unique_lock lock(mutex);
-        while (!stop.stop_requested()) {
+        // What lasts is said once.
+        const auto do_logged = [](std::string& trouble, const auto& what) {
           try {
-            caretaker.look_after(now());
+            what();
+            trouble.clear();
           } catch (const Error& error) {
-            spdlog::error("what happens without a scan cannot be looked after: {}", error.what());
+            if (trouble != error.what()) {
+              spdlog::error("what happens without a scan cannot be looked after: {}", error.what());
+            }
+            trouble = error.what();
           }
+        };
+        std::string trouble_of_looking, trouble_of_keeping;
+        while (!stop.stop_requested()) {
+          do_logged(trouble_of_looking, [&] { caretaker.look_after(now()); });
+          do_logged(trouble_of_keeping, [&] { retention.keep(now()); });
           stopped.wait_for(lock, stop, std::chrono::seconds(1), [] { return false; });
         }
       }) {}

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "core/time.hpp"
+#include "server/retention_keeper.hpp"
 #include "storage/store.hpp"
 
 namespace raywatch {
@@ -32,10 +33,10 @@ class Caretaker {
   CaretakerConfig config_;
 };
 
-/// The thread that calls it once a second. What it throws is logged, and tried again.
+/// The thread that calls it, and has retention kept, once a second. What they throw is logged, and tried again.
 class CaretakerThread {
  public:
-  CaretakerThread(Caretaker& caretaker, std::function<Time()> now);
+  CaretakerThread(Caretaker& caretaker, RetentionKeeper& retention, std::function<Time()> now);
 
  private:
   std::jthread thread_;

@@ -236,6 +236,7 @@ void ComparisonRunner::commit(const Job& job, const Subject& subject, Comparison
                               const ComparisonPoints& points, const Glance& glance) {
   UnownedPayloads written(store_.payloads());
   result.payload = written.add(store_.payloads().put_comparison(subject.site.id, subject.scan.captured_at, points));
+  result.stored_bytes = store_.payloads().stored_bytes(result.payload);
   const Time now = now_();
   const bool is_first = store_.write([&](Transaction& transaction) {
     const std::optional<std::vector<ChangeId>> changes = finish_job(transaction, job, result, now);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <list>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -11,6 +12,8 @@
 #include "core/error.hpp"
 #include "server/caretaker.hpp"
 #include "server/comparison_runner.hpp"
+#include "server/delivery/deliverer.hpp"
+#include "server/folder_intake.hpp"
 #include "server/index_cache.hpp"
 #include "server/ingest_service.hpp"
 #include "server/machine.hpp"
@@ -19,6 +22,7 @@
 #include "server/workers.hpp"
 #include "storage/baselines.hpp"
 #include "storage/comparisons.hpp"
+#include "storage/deletions.hpp"
 #include "storage/payloads.hpp"
 #include "storage/signal.hpp"
 #include "storage/sites.hpp"
@@ -68,10 +72,16 @@ struct Daemon::Impl {
                  .compare_threads = config.compare_threads > 0 ? std::min(config.compare_threads, cores()) : cores()},
                 now),
         caretaker(store, {.low_disk_bytes = 2 * config.min_free_disk_bytes}),
-        caretaker_thread(caretaker, now),
+        retention(store, config.retention, [this](ScanId scan) { cache.forget(scan); }),
+        caretaker_thread(caretaker, retention, now),
+        deliverer(store, config.delivery, now),
         http(with_spool(config.http, config.data_dir),
              {store, commands(), [this] { return status(); }, now,
-              [](const std::string& failure) { spdlog::error("{}", failure); }}) {
+              [](const std::string& failure) { spdlog::error("{}", failure); }, config.retention.defaults}) {
+    for (const FolderConfig& folder : config.folders) {
+      folders.emplace_back(std::make_unique<FolderIntake>(
+          store, folder, [this](const Upload& upload) { return ingest_file(upload); }, now, folder_status));
+    }
     for (const std::string& warning : store.open_report().warnings) spdlog::warn("the store: {}", warning);
     if (requeued > 0) spdlog::info("{} comparisons were interrupted and start again", requeued);
     http.start();
@@ -97,8 +107,12 @@ struct Daemon::Impl {
   const std::uint64_t requeued;
   Workers workers;
   Caretaker caretaker;
+  RetentionKeeper retention;
   CaretakerThread caretaker_thread;
+  Deliverer deliverer;
+  FolderStatus folder_status;
   HttpServer http;
+  std::list<FolderThread> folders;
 };
 
 Commands Daemon::Impl::commands() {
@@ -109,7 +123,9 @@ Commands Daemon::Impl::commands() {
                                   std::chrono::milliseconds patience) { return wait_for_scan(scan, patience); },
           .progress = [this](ComparisonId id) { return progress.of(id); },
           .delete_scan = [this](ScanId scan) { delete_scan(scan); },
-          .backup = [this](const std::filesystem::path& directory) { store.backup(directory); }};
+          .backup = [this](const std::filesystem::path& directory) { store.backup(directory); },
+          .test_channel = [this](ChannelId channel) { return deliverer.test(channel); },
+          .delete_channel = [this](ChannelId channel) { deliverer.delete_channel(channel); }};
 }
 
 UploadResult Daemon::Impl::ingest_file(const Upload& upload) {
@@ -147,8 +163,12 @@ bool Daemon::Impl::wait_for_scan(ScanId scan, std::chrono::milliseconds patience
 
 void Daemon::Impl::delete_scan(ScanId scan) {
   const std::vector<PayloadRef> payloads = store.write([&](Transaction& transaction) {
+    const std::optional<ScanRecord> record = find_scan(transaction, scan);
+    const std::uint64_t bytes = bytes_of_scan(transaction, scan);
     withdraw_from_baseline(transaction, scan, now());
-    return raywatch::delete_scan(transaction, scan);
+    std::vector<PayloadRef> freed = raywatch::delete_scan(transaction, scan);
+    record_deleted_scan(transaction, *record, bytes, DeletionReason::by_operator, now());
+    return freed;
   });
   for (const PayloadRef& payload : payloads) store.payloads().remove(payload);
   cache.forget(scan);
@@ -157,6 +177,7 @@ void Daemon::Impl::delete_scan(ScanId scan) {
 DaemonStatus Daemon::Impl::status() const {
   const WorkersStatus working = workers.status();
   const IndexCacheStatus cached = cache.status();
+  const RetentionStatus kept = retention.status();
   const std::uint64_t free_bytes = free_disk_bytes(config.data_dir);
   return {.writable = free_bytes >= config.min_free_disk_bytes && is_writable(config.data_dir),
           .workers_alive = working.alive,
@@ -170,17 +191,28 @@ DaemonStatus Daemon::Impl::status() const {
           .scans_ingested = scans_ingested,
           .comparisons_finished = working.finished,
           .comparisons_failed = working.failed,
+          .scans_deleted = kept.scans_deleted,
+          .bytes_deleted = kept.bytes_deleted,
+          .events_deleted = kept.events_deleted,
+          .folder_files_stored = folder_status.stored,
+          .folder_files_known = folder_status.known,
+          .folder_files_failed = folder_status.failed,
+          .folder_files_waiting = folder_status.waiting,
           .free_disk_bytes = free_bytes,
-          .resident_bytes = resident_memory_bytes()};
+          .resident_bytes = resident_memory_bytes(),
+          .deliveries = deliverer.figures()};
 }
 
 StopOutcome Daemon::Impl::stop() {
   const auto deadline = std::chrono::steady_clock::now() + kStopPatience;
   workers.request_stop();
+  deliverer.request_stop();
   signal.close();
   store.commits().close();  // the streams of events end
+  folders.clear();
   http.stop();
-  return workers.wait_stopped(deadline) ? StopOutcome::clean : StopOutcome::comparisons_abandoned;
+  if (!workers.wait_stopped(deadline)) return StopOutcome::comparisons_abandoned;
+  return deliverer.wait_stopped(deadline) ? StopOutcome::clean : StopOutcome::deliveries_abandoned;
 }
 
 Daemon::Daemon(const DaemonConfig& config, std::function<Time()> now)

@@ -5,10 +5,14 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "api/http_server.hpp"
 #include "core/choose_priors.hpp"
 #include "core/time.hpp"
+#include "server/delivery/delivery_config.hpp"
+#include "server/folder_intake.hpp"
+#include "server/retention_keeper.hpp"
 #include "server/watcher.hpp"
 
 namespace raywatch {
@@ -21,16 +25,20 @@ struct DaemonConfig {
   std::uint64_t index_cache_bytes = std::uint64_t{1} << 30;
   std::uint64_t queue_limit = 1000;  ///< unfinished jobs above which uploads get 503
   std::uint64_t min_free_disk_bytes = 256u << 20;
+  RetentionConfig retention;
+  std::vector<FolderConfig> folders;
   std::chrono::seconds future_tolerance{60};    ///< a capture time later than now by more than this is refused
   std::chrono::hours previous_limit{24 * 365};  ///< scans older than this are no `previous` reference
   ChoiceParameters choice;
   WatchConfig watch;
+  DeliveryConfig delivery;
 };
 
 /// How a stop went.
 enum class StopOutcome : std::uint8_t {
   clean,                  ///< nothing runs any more
   comparisons_abandoned,  ///< a comparison still runs; it starts again at the next start
+  deliveries_abandoned,   ///< a message is still on its way; it is sent again at the next start
 };
 
 /// The running program: store, workers and HTTP server. Everything is running when the constructor returns; the

@@ -1,5 +1,7 @@
 #include "server/settings.hpp"
 
+#include <array>
+
 #include "config/config_reader.hpp"
 
 namespace raywatch {
@@ -8,6 +10,16 @@ namespace {
 void bind_storage(ConfigReader& reader, DaemonConfig& config) {
   reader.path("storage.data_dir", config.data_dir);
   reader.mebibytes("storage.min_free_disk_mib", config.min_free_disk_bytes, {});
+}
+
+void bind_retention(ConfigReader& reader, RetentionConfig& retention) {
+  RetentionLimits& limits = retention.defaults;
+  std::uint64_t max_age_days = 0, max_bytes = 0, min_free_bytes = 0;
+  reader.whole("retention.max_age_days", max_age_days, {.min = 0, .max = 36'500});
+  reader.mebibytes("retention.max_mib", max_bytes, {});
+  reader.mebibytes("retention.min_free_mib", min_free_bytes, {});
+  reader.duration("retention.events_max_age_days", retention.events_max_age, {.min = 1, .max = 36'500});
+  limits = {.max_age_days = max_age_days, .max_bytes = max_bytes, .min_free_bytes = min_free_bytes};
 }
 
 void bind_http(ConfigReader& reader, HttpConfig& config) {
@@ -31,6 +43,28 @@ void bind_ingest(ConfigReader& reader, DaemonConfig& config) {
   reader.duration("ingest.future_tolerance_s", config.future_tolerance, {.min = 0, .max = 86'400});
 }
 
+constexpr std::array<std::string_view, 2> kTimesFrom{"name", "mtime"};
+
+FolderConfig read_folder(ConfigReader& reader, const std::string& table) {
+  FolderConfig folder;
+  std::string time_from{kTimesFrom[0]};
+  reader.path(table + ".path", folder.path);
+  reader.text(table + ".sensor", folder.sensor);
+  reader.text(table + ".site", folder.site);
+  reader.flag(table + ".create", folder.create);
+  reader.one_of(table + ".time_from", time_from, kTimesFrom);
+  reader.duration(table + ".poll_ms", folder.poll, {.min = 100, .max = 3'600'000});
+  reader.duration(table + ".settle_ms", folder.settle, {.min = 0, .max = 3'600'000});
+  reader.duration(table + ".patience_s", folder.patience, {.min = 0, .max = 86'400});
+  folder.time_from = time_from == kTimesFrom[0] ? TimeFrom::name : TimeFrom::mtime;
+  reader.require(table + ".path");
+  return folder;
+}
+
+void bind_folders(ConfigReader& reader, std::vector<FolderConfig>& folders) {
+  for (const std::string& table : reader.tables("ingest.folder")) folders.push_back(read_folder(reader, table));
+}
+
 void bind_compare(ConfigReader& reader, DaemonConfig& config) {
   reader.whole("compare.workers", config.workers, {.min = 0, .max = 256});
   reader.whole("compare.threads", config.compare_threads, {.min = 0, .max = 256});
@@ -52,6 +86,18 @@ void bind_watch(ConfigReader& reader, WatchConfig& watch) {
   reader.duration("watch.moved_within_s", watch.moved_within, {.min = 0, .max = 31'536'000});
 }
 
+void bind_delivery(ConfigReader& reader, DeliveryConfig& delivery) {
+  reader.text("delivery.public_url", delivery.public_url);
+  reader.whole("delivery.attempts", delivery.attempts, {.min = 1, .max = 100});
+  reader.duration("delivery.give_up_after_h", delivery.give_up_after, {.min = 1, .max = 8760});
+  reader.duration("delivery.alarm_after_s", delivery.alarm_after, {.min = 0, .max = 86'400});
+  reader.duration("delivery.keep_h", delivery.keep, {.min = 1, .max = 87'600});
+  reader.duration("delivery.connect_timeout_ms", delivery.sender.connect_timeout, {.min = 100, .max = 60'000});
+  reader.duration("delivery.timeout_ms", delivery.sender.timeout, {.min = 100, .max = 120'000});
+  reader.text("delivery.proxy", delivery.sender.proxy);
+  reader.text("delivery.ca_file", delivery.sender.ca_file);
+}
+
 void bind_log(ConfigReader& reader, LogConfig& config) {
   reader.one_of("log.level", config.level, kLogLevels);
   reader.one_of("log.format", config.format, kLogFormats);
@@ -59,12 +105,15 @@ void bind_log(ConfigReader& reader, LogConfig& config) {
 
 void bind_all(ConfigReader& reader, Settings& settings) {
   bind_storage(reader, settings.daemon);
+  bind_retention(reader, settings.daemon.retention);
   bind_http(reader, settings.daemon.http);
   bind_dashboard(reader, settings.daemon.http);
   bind_ingest(reader, settings.daemon);
+  bind_folders(reader, settings.daemon.folders);
   bind_compare(reader, settings.daemon);
   bind_choice(reader, settings.daemon.choice);
   bind_watch(reader, settings.daemon.watch);
+  bind_delivery(reader, settings.daemon.delivery);
   bind_log(reader, settings.log);
 }
 

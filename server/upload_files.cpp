@@ -1,7 +1,6 @@
 #include "server/upload_files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -10,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/time.hpp"
+#include "server/folder_files.hpp"
 #include "storage/formats/side_car.hpp"
 
 namespace raywatch {
@@ -18,18 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-bool is_scan_file(const fs::path& file) {
-  constexpr std::array<std::string_view, 9> kEndings = {".pcd", ".ply", ".las", ".ptx", ".xyz",
-                                                        ".csv", ".txt", ".asc", ".bin"};
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return std::ranges::find(kEndings, ending) != kEndings.end();
-}
-
 void add_directory(const fs::path& directory, std::vector<fs::path>& files) {
   const std::size_t before = files.size();
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory)) {
-    if (entry.is_regular_file() && is_scan_file(entry.path())) files.push_back(entry.path());
+    if (entry.is_regular_file() && has_scan_ending(entry.path())) files.push_back(entry.path());
   }
   if (files.size() == before) throw InvalidInput(directory.string() + ": holds no scan file");
 }

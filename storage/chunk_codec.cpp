@@ -125,14 +125,18 @@ std::optional<ChunkBounds> chunk_bounds(std::span<const float> x_m, std::span<co
   return bounds;
 }
 
-bool may_meet(const ChunkBounds& bounds, const DirectionCone& cone) {
+ElevationBand elevation_band(const DirectionCone& cone) {
   const Eigen::Vector3d& u = cone.direction;
-  const double horizontal = std::hypot(u.x(), u.y());
-  const double elevation_rad = std::atan2(u.z(), horizontal);
+  const double elevation_rad = std::atan2(u.z(), std::hypot(u.x(), u.y()));
   const double angle_rad = cone.half_angle_rad + kRounding_rad;
-  if (elevation_rad + angle_rad < bounds.elevation_min_rad || elevation_rad - angle_rad > bounds.elevation_max_rad) {
-    return false;
-  }
+  return {elevation_rad - angle_rad, elevation_rad + angle_rad};
+}
+
+bool may_meet(const ChunkBounds& bounds, const DirectionCone& cone) {
+  const ElevationBand band = elevation_band(cone);
+  if (band.max_rad < bounds.elevation_min_rad || band.min_rad > bounds.elevation_max_rad) return false;
+  const Eigen::Vector3d& u = cone.direction;
+  const double elevation_rad = 0.5 * (band.min_rad + band.max_rad), angle_rad = 0.5 * (band.max_rad - band.min_rad);
   // A cone that holds a pole meets every azimuth; another reaches asin(sin a / cos e) to both sides.
   const double ratio = std::sin(angle_rad) / std::cos(elevation_rad);
   if (std::abs(elevation_rad) + angle_rad >= kPi / 2.0 || ratio >= 1.0) return true;
@@ -157,7 +161,8 @@ std::vector<std::uint8_t> encode_chunk(const PointCloud& points, std::size_t fir
 
 void decode_chunk(std::span<const std::uint8_t> block, bool with_intensity, PointCloud& points) {
   const BlockHeader header = open_block(block, BlockKind::scan_points);
-  if (header.elements == 0 || header.elements > kChunkPoints || header.flags != (with_intensity ? kWithIntensity : 0)) {
+  if (header.elements == 0 || header.elements > kMostChunkPoints ||
+      header.flags != (with_intensity ? kWithIntensity : 0)) {
     throw CorruptData("a stored chunk contradicts its scan");
   }
   const std::size_t n = header.elements;

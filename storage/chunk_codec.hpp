@@ -11,8 +11,10 @@
 
 namespace raywatch {
 
-/// At most so many points stand in one chunk.
-inline constexpr std::size_t kChunkPoints = 8192;
+/// So many points are put into one chunk: a question about one direction reads little, and chunks still compress well.
+inline constexpr std::size_t kChunkPoints = 512;
+/// At most so many points stand in one chunk that was stored at any time.
+inline constexpr std::size_t kMostChunkPoints = 8192;
 
 /// What directions and ranges the points of a chunk have in the sensor frame. Azimuths run from `azimuth_min_rad` in
 /// (-pi, pi] upwards to `azimuth_max_rad`, which is above pi when they cross the seam.
@@ -32,10 +34,16 @@ struct DirectionCone {
   double half_angle_rad = 0.0;  ///< 0..pi
 };
 
+/// The elevations of the directions in a cone, and a little more than these.
+struct ElevationBand {
+  double min_rad = 0.0, max_rad = 0.0;
+};
+ElevationBand elevation_band(const DirectionCone& cone);
+
 /// False only if no point within `bounds` lies in the cone. May be true for some that hold none.
 bool may_meet(const ChunkBounds& bounds, const DirectionCone& cone);
 
-/// Points `first`, `first + 1`, ... of a cloud, at most `kChunkPoints`, as a sealed block; bit-exact.
+/// Points `first`, `first + 1`, ... of a cloud, at most `kMostChunkPoints`, as a sealed block; bit-exact.
 std::vector<std::uint8_t> encode_chunk(const PointCloud& points, std::size_t first, std::size_t count,
                                        BlockSealer& sealer);
 

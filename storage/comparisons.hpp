@@ -140,6 +140,7 @@ struct ComparisonResult {
   std::map<std::string, double> timings_ms;
   std::vector<std::string> warnings;
   PayloadRef payload;
+  std::uint64_t stored_bytes = 0;            ///< of the payload
   std::optional<Registration> registration;  ///< of the scan, when this comparison's job refined its pose
 };
 /// Commits a result, the end of its job and the scan's state, once, and gives the ids of its changes: a job that is

@@ -28,10 +28,13 @@ struct Event {
   std::string text;  ///< one sentence for people
 };
 
-/// The event's id is ignored.
+/// The event's id is ignored. Queues it for the channels that want it, too.
 EventId insert_event(Transaction& transaction, const Event& event);
+std::optional<Event> find_event(const Snapshot& snapshot, EventId id);
 /// The first `limit` events after an id, in order; of one site, when given.
 std::vector<Event> events_after(const Snapshot& snapshot, EventId after, std::optional<SiteId> site, std::size_t limit);
+/// The oldest event that is kept; 0 when there is none. Ids rise without gaps, so those before it were pruned.
+EventId first_event(const Snapshot& snapshot);
 /// The latest event; 0 when there is none.
 EventId last_event(const Snapshot& snapshot);
 

@@ -64,9 +64,9 @@ void update_result(Transaction& transaction, ComparisonId comparison, const Comp
       .run(
           "UPDATE comparisons SET counts = ?, testable = ?, changes = ?, timings_ms = ?, warnings = ?, payload_file = "
           "?, "
-          "payload_key = ?, finished_at = ? WHERE id = ?",
+          "payload_key = ?, stored_bytes = ?, finished_at = ? WHERE id = ?",
           counts_json(result.counts), result.testable, result.changes.size(), timings_json(result.timings_ms),
-          texts_json(result.warnings), result.payload.file, result.payload.key, now, comparison);
+          texts_json(result.warnings), result.payload.file, result.payload.key, result.stored_bytes, now, comparison);
 }
 
 void end_without_result(Transaction& transaction, const Job& job, std::string_view why, std::optional<Time> when) {

@@ -77,9 +77,14 @@ void PayloadFiles::read(const std::string& file, const std::function<void(Databa
   give_reader(file, std::move(database));
 }
 
-std::vector<std::string> PayloadFiles::on_disk() const {
+std::vector<std::string> PayloadFiles::on_disk() const { return files_below(data_dir_ / "payload"); }
+
+std::vector<std::string> PayloadFiles::on_disk_of(SiteId site) const {
+  return files_below(data_dir_ / "payload" / std::to_string(site.value));
+}
+
+std::vector<std::string> PayloadFiles::files_below(const std::filesystem::path& root) const {
   std::vector<std::string> files;
-  const std::filesystem::path root = data_dir_ / "payload";
   if (!std::filesystem::exists(root)) return files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     if (entry.is_regular_file() && entry.path().extension() == ".db") {

@@ -32,6 +32,8 @@ class PayloadFiles {
 
   /// All payload files on the disk, relative to the data directory, sorted.
   std::vector<std::string> on_disk() const;
+  /// Those of one site.
+  std::vector<std::string> on_disk_of(SiteId site) const;
   /// Closes what is open. Only on the writer thread, and while nobody reads.
   void close();
   /// Deletes a file. As `close`.
@@ -46,6 +48,7 @@ class PayloadFiles {
   };
   std::unique_ptr<Database> take_reader(const std::string& file);
   void give_reader(const std::string& file, std::unique_ptr<Database> database);
+  std::vector<std::string> files_below(const std::filesystem::path& root) const;
 
   std::filesystem::path data_dir_;
   std::list<Connection> writers_;  // the last used first

@@ -67,10 +67,13 @@ PayloadRow payload_row(Database& database, const PayloadRef& ref) {
 }
 
 std::vector<std::int64_t> chunks_that_meet(Database& database, const PayloadRef& ref, const DirectionCone& cone) {
+  // The band of elevations leaves few rows to be looked at more closely.
+  const ElevationBand band = elevation_band(cone);
   Statement rows(database,
                  "SELECT id, azimuth_min_rad, azimuth_max_rad, elevation_min_rad, elevation_max_rad, range_min_m, "
-                 "range_max_m FROM chunks WHERE id >= ? AND id < ? AND azimuth_min_rad IS NOT NULL ORDER BY id");
-  rows.bind(ref.key * kChunksPerPayload, (ref.key + 1) * kChunksPerPayload);
+                 "range_max_m FROM chunks INDEXED BY chunk_bounds WHERE id >= ? AND id < ? AND azimuth_min_rad IS NOT "
+                 "NULL AND elevation_max_rad >= ? AND elevation_min_rad <= ? ORDER BY id");
+  rows.bind(ref.key * kChunksPerPayload, (ref.key + 1) * kChunksPerPayload, band.min_rad, band.max_rad);
   std::vector<std::int64_t> ids;
   while (rows.next()) {
     const auto id = rows.take<std::int64_t>();

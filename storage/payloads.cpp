@@ -145,19 +145,17 @@ PointCloud Payloads::scan_points(const PayloadRef& ref) const {
   return points;
 }
 
-std::vector<PointRun> Payloads::scan_points_around(const PayloadRef& ref, const DirectionCone& cone) const {
-  std::vector<PointRun> runs;
+std::vector<PointCloud> Payloads::scan_points_around(const PayloadRef& ref, const DirectionCone& cone) const {
+  std::vector<PointCloud> chunks;
   read_payload(*impl_, ref, [&](Database& database, const PayloadRow& row) {
     require_kind(row, "scan");
     for (const std::int64_t id : chunks_that_meet(database, ref, cone)) {
-      PointRun& run = runs.emplace_back();
-      run.first = static_cast<std::size_t>(id - ref.key * kChunksPerPayload) * kChunkPoints;
       Statement chunk(database, "SELECT data FROM chunks WHERE id = ?");
       chunk.bind(id).next();
-      decode_chunk(chunk.take<std::span<const std::uint8_t>>(), row.has_intensity, run.points);
+      decode_chunk(chunk.take<std::span<const std::uint8_t>>(), row.has_intensity, chunks.emplace_back());
     }
   });
-  return runs;
+  return chunks;
 }
 
 Panorama Payloads::scan_panorama(const PayloadRef& ref) const {
@@ -178,6 +176,30 @@ std::uint64_t Payloads::stored_bytes(const PayloadRef& ref) const {
   std::uint64_t bytes = 0;
   read_payload(*impl_, ref, [&](Database&, const PayloadRow& row) { bytes = row.stored_bytes; });
   return bytes;
+}
+
+PayloadUse Payloads::use_of(SiteId site) const {
+  PayloadUse use;
+  for (const std::string& file : impl_->files.on_disk_of(site)) {
+    std::error_code gone;
+    const std::uintmax_t size = std::filesystem::file_size(impl_->files.data_dir() / file, gone);
+    if (gone) continue;
+    std::uint64_t in_use = size;
+    try {
+      impl_->files.read(file, [&](Database* database) { in_use = database ? database->bytes_in_use() : 0; });
+    } catch (const CorruptData&) {
+      // Nothing of a damaged file is given back.
+    }
+    use.in_use_bytes += in_use;
+    use.freed_bytes += size - std::min<std::uint64_t>(in_use, size);
+  }
+  return use;
+}
+
+bool Payloads::deletions_wait() const {
+  bool waits = false;
+  impl_->writer.run([&] { waits = impl_->copies_running > 0; });
+  return waits;
 }
 
 PayloadRef Payloads::put_comparison(SiteId site, Time captured_at, const ComparisonPoints& points) {

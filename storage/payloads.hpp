@@ -30,17 +30,17 @@ struct ComparisonPoints {
   std::vector<PriorPoint> prior_points;
 };
 
-/// Neighbouring points of a scan: `first` is the place of the first of them.
-struct PointRun {
-  std::size_t first = 0;
-  PointCloud points;  ///< without a grid
+/// What the payload files of a site hold.
+struct PayloadUse {
+  std::uint64_t in_use_bytes = 0;
+  std::uint64_t freed_bytes = 0;  ///< not given back to the disk yet
 };
 
 /// Points and point classes in one SQLite file per site and month.
 ///
-/// Scan points are kept bit-exact and in their order: planes, byte-shuffled and compressed with zstd, in chunks of at
-/// most 8,192 points with a checksum and their bounds in direction and range. Thread-safe. When a `put_` returns, the
-/// payload is on the disk; one without a reference from the metadata is swept at the next start.
+/// Scan points are kept bit-exact and in their order: planes, byte-shuffled and compressed with zstd, in chunks
+/// of at most `kChunkPoints` with a checksum and their bounds in direction and range. Thread-safe. When a `put_`
+/// returns, the payload is on the disk; one without a reference from the metadata is swept at the next start.
 class Payloads {
  public:
   struct Impl;
@@ -50,10 +50,13 @@ class Payloads {
   PayloadRef put_scan(SiteId site, Time captured_at, const PointCloud& points, const Panorama& panorama);
   /// @throws CorruptData when a checksum does not match; NotFound when there is no such payload.
   PointCloud scan_points(const PayloadRef& ref) const;
-  /// Runs of points, in order, among which are all that lie in the cone; reads only the chunks whose bounds meet it.
-  std::vector<PointRun> scan_points_around(const PayloadRef& ref, const DirectionCone& cone) const;
+  /// Points, among which are all that lie in the cone, by chunk; reads only the chunks whose bounds meet it.
+  std::vector<PointCloud> scan_points_around(const PayloadRef& ref, const DirectionCone& cone) const;
   Panorama scan_panorama(const PayloadRef& ref) const;
   std::uint64_t stored_bytes(const PayloadRef& ref) const;
+  PayloadUse use_of(SiteId site) const;
+  /// Deletions wait while the store is copied: what is asked for now is gone only then.
+  bool deletions_wait() const;
 
   PayloadRef put_comparison(SiteId site, Time captured_at, const ComparisonPoints& points);
   ComparisonPoints comparison_points(const PayloadRef& ref) const;

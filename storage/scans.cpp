@@ -217,15 +217,28 @@ void set_scan_state(Transaction& transaction, ScanId id, ScanState state, std::s
   database_of(transaction).run("UPDATE scans SET state = ?, failure = ? WHERE id = ?", to_string(state), failure, id);
 }
 
+std::uint64_t bytes_of_scan(const Snapshot& snapshot, ScanId id) {
+  return database_of(snapshot)
+      .find<std::uint64_t>(
+          "SELECT stored_bytes + (SELECT ifnull(sum(stored_bytes), 0) FROM comparisons INDEXED BY comparisons_by_scan "
+          "WHERE scan = ?1) FROM scans WHERE id = ?1",
+          id)
+      .value_or(0);
+}
+
 std::vector<PayloadRef> delete_scan(Transaction& transaction, ScanId id) {
   const ScanRecord scan = existing(transaction, id);
   require_deletable(transaction, scan);
+  return drop_scan(transaction, scan);
+}
+
+std::vector<PayloadRef> drop_scan(Transaction& transaction, const ScanRecord& scan) {
   std::vector<PayloadRef> payloads{scan.payload};
-  for (const ComparisonRecord& comparison : comparisons_of(transaction, id)) {
+  for (const ComparisonRecord& comparison : comparisons_of(transaction, scan.id)) {
     if (!comparison.payload.file.empty()) payloads.push_back(comparison.payload);
     delete_comparison(transaction, comparison.id);
   }
-  database_of(transaction).run("DELETE FROM scans WHERE id = ?", id);
+  database_of(transaction).run("DELETE FROM scans WHERE id = ?", scan.id);
   drop_scan_from_vantage(transaction, scan.vantage);
   return payloads;
 }

@@ -90,9 +90,15 @@ ScanRecord edit_scan(Transaction& transaction, ScanId id, const ScanEdit& edit);
 void set_registration(Transaction& transaction, ScanId id, const Registration& registration);
 void set_scan_state(Transaction& transaction, ScanId id, ScanState state, std::string_view failure = {});
 
+/// What the scan's points and the classes in its comparisons take; 0 when it is not there.
+std::uint64_t bytes_of_scan(const Snapshot& snapshot, ScanId id);
+
 /// Deletes the record with its comparisons and changes; returns the payloads to remove after the commit.
 /// @throws Conflict when it is pinned, being compared, or a prior of a stored comparison.
 std::vector<PayloadRef> delete_scan(Transaction& transaction, ScanId id);
+/// The same without these checks, for retention, which knows what is still needed. Comparisons with it as a prior stay,
+/// with their figures and its id.
+std::vector<PayloadRef> drop_scan(Transaction& transaction, const ScanRecord& scan);
 
 Page<Vantage> list_vantages(const Snapshot& snapshot, std::optional<SiteId> site, const PageRequest& page);
 

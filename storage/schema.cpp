@@ -1,6 +1,8 @@
 #include <array>
 
+#include "storage/delivery_schema.hpp"
 #include "storage/migrations.hpp"
+#include "storage/retention_schema.hpp"
 #include "storage/watch_schema.hpp"
 
 namespace raywatch {
@@ -201,8 +203,14 @@ CREATE TABLE chunks (
 ) STRICT;
 )sql";
 
-constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3};
-constexpr std::array kPayloadSteps{kPayload1};
+/// The bounds alone, so that finding the chunks of one direction does not read the data of all others.
+constexpr std::string_view kPayload2 = R"sql(
+CREATE INDEX chunk_bounds ON chunks (id, azimuth_min_rad, azimuth_max_rad, elevation_min_rad, elevation_max_rad,
+  range_min_m, range_max_m) WHERE azimuth_min_rad IS NOT NULL;
+)sql";
+
+constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3, kMetadata4, kMetadata5};
+constexpr std::array kPayloadSteps{kPayload1, kPayload2};
 
 }  // namespace
 

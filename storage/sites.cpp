@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::string_view kList = "sites";
 const std::string kSelect =
-    "SELECT id, name, time_zone, profile, epsg, origin_x_m, origin_y_m, origin_z_m, created_at FROM sites ";
+    "SELECT id, name, time_zone, profile, epsg, origin_x_m, origin_y_m, origin_z_m, "
+    "retention_max_age_days, retention_max_bytes, retention_min_free_bytes, created_at FROM sites ";
 
 std::optional<Eigen::Vector3d> take_origin(Statement& row) {
   const auto x = row.take<std::optional<double>>();
@@ -30,6 +31,9 @@ Site read_site(Statement& row) {
   site.profile = enum_from_text(row.take<std::string>(), {Profile::indoor, Profile::outdoor, Profile::survey});
   site.epsg = row.take<std::optional<int>>();
   site.origin_m = take_origin(row);
+  site.retention.max_age_days = row.take<std::optional<std::uint64_t>>();
+  site.retention.max_bytes = row.take<std::optional<std::uint64_t>>();
+  site.retention.min_free_bytes = row.take<std::optional<std::uint64_t>>();
   site.created_at = row.take<Time>();
   return site;
 }
@@ -77,10 +81,12 @@ Site insert_site(Transaction& transaction, const Site& site, Time now) {
   if (find_site(transaction, site.name)) throw Conflict("there is a site named \"" + site.name + "\" already");
   database_of(transaction)
       .run(
-          "INSERT INTO sites (name, time_zone, profile, epsg, origin_x_m, origin_y_m, origin_z_m, created_at) "
-          "VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+          "INSERT INTO sites (name, time_zone, profile, epsg, origin_x_m, origin_y_m, origin_z_m, "
+          "retention_max_age_days, retention_max_bytes, retention_min_free_bytes, created_at) "
+          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
           site.name, site.time_zone, to_string(site.profile), site.epsg, coordinate(site.origin_m, 0),
-          coordinate(site.origin_m, 1), coordinate(site.origin_m, 2), now);
+          coordinate(site.origin_m, 1), coordinate(site.origin_m, 2), site.retention.max_age_days,
+          site.retention.max_bytes, site.retention.min_free_bytes, now);
   return existing(transaction, SiteId{database_of(transaction).last_id()});
 }
 
@@ -108,12 +114,14 @@ Site edit_site(Transaction& transaction, SiteId id, const SiteEdit& edit) {
   if (edit.profile) site.profile = *edit.profile;
   if (edit.epsg) site.epsg = edit.epsg;
   if (edit.origin_m) site.origin_m = edit.origin_m;
+  if (edit.retention) site.retention = *edit.retention;
   database_of(transaction)
       .run(
-          "UPDATE sites SET time_zone = ?, profile = ?, epsg = ?, origin_x_m = ?, origin_y_m = ?, origin_z_m = ? "
-          "WHERE id = ?",
+          "UPDATE sites SET time_zone = ?, profile = ?, epsg = ?, origin_x_m = ?, origin_y_m = ?, origin_z_m = ?, "
+          "retention_max_age_days = ?, retention_max_bytes = ?, retention_min_free_bytes = ? WHERE id = ?",
           site.time_zone, to_string(site.profile), site.epsg, coordinate(site.origin_m, 0),
-          coordinate(site.origin_m, 1), coordinate(site.origin_m, 2), id);
+          coordinate(site.origin_m, 1), coordinate(site.origin_m, 2), site.retention.max_age_days,
+          site.retention.max_bytes, site.retention.min_free_bytes, id);
   return site;
 }
 
@@ -132,6 +140,9 @@ void delete_site(Transaction& transaction, SiteId id) {
   const Site site = existing(transaction, id);
   if (database_of(transaction).find<int>("SELECT 1 FROM sensors WHERE site = ? LIMIT 1", id)) {
     throw Conflict("site \"" + site.name + "\" still has sensors");
+  }
+  if (database_of(transaction).find<int>("SELECT 1 FROM channels WHERE site = ? LIMIT 1", id)) {
+    throw Conflict("site \"" + site.name + "\" still has channels that tell of it");
   }
   delete_what_was_watched(database_of(transaction), id);
   database_of(transaction).run("DELETE FROM sites WHERE id = ?", id);

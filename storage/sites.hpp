@@ -9,6 +9,7 @@
 #include "core/profile.hpp"
 #include "core/time.hpp"
 #include "storage/page.hpp"
+#include "storage/retention_limits.hpp"
 #include "storage/store.hpp"
 
 namespace raywatch {
@@ -22,6 +23,7 @@ struct Site {
   Profile profile = Profile::indoor;
   std::optional<int> epsg;
   std::optional<Eigen::Vector3d> origin_m;  ///< fixed by the first scan when not given
+  RetentionLimits retention;                ///< its own: nothing is as configured for all sites, 0 not here
   Time created_at;
 };
 
@@ -31,6 +33,7 @@ struct SiteEdit {
   std::optional<Profile> profile;
   std::optional<int> epsg;
   std::optional<Eigen::Vector3d> origin_m;  ///< refused (Conflict) once the site has scans or zones
+  std::optional<RetentionLimits> retention;
 };
 
 /// `id` and `created_at` of the argument are ignored. @throws Conflict when the name is taken.

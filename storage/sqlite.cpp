@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -166,6 +167,24 @@ void Database::run_between(std::string_view begin, const std::function<void()>& 
 
 void Database::transact(const std::function<void()>& f) { run_between("BEGIN IMMEDIATE", f); }
 void Database::read_consistently(const std::function<void()>& f) { run_between("BEGIN", f); }
+
+std::uint64_t Database::bytes_in_use() {
+  const auto pages = find<std::uint64_t>("PRAGMA page_count").value_or(0);
+  const auto free_pages = find<std::uint64_t>("PRAGMA freelist_count").value_or(0);
+  return (pages - std::min(free_pages, pages)) * find<std::uint64_t>("PRAGMA page_size").value_or(0);
+}
+
+void Database::checkpoint() {
+  // A reader that holds a part of the log back would be waited for.
+  sqlite3_busy_timeout(handle_, 0);
+  try {
+    run("PRAGMA wal_checkpoint(TRUNCATE)");
+  } catch (...) {
+    sqlite3_busy_timeout(handle_, kBusyTimeout_ms);
+    throw;
+  }
+  sqlite3_busy_timeout(handle_, kBusyTimeout_ms);
+}
 
 std::int64_t Database::last_id() const { return sqlite3_last_insert_rowid(handle_); }
 std::int64_t Database::changed_rows() const { return sqlite3_changes64(handle_); }

@@ -166,6 +166,12 @@ class Database {
   /// Runs `f` inside one read transaction, so that it sees one state of the file.
   void read_consistently(const std::function<void()>& f);
 
+  /// The pages that hold something, in bytes.
+  std::uint64_t bytes_in_use();
+  /// Brings the log into the file, which loses what was freed at its end, and empties the log; as far as nobody reads
+  /// what it holds. Never waits. Not inside a transaction.
+  void checkpoint();
+
   std::int64_t last_id() const;
   std::int64_t changed_rows() const;
   /// The texts of the statements in the cache, for checks of their plans.

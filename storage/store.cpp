@@ -1,5 +1,7 @@
 #include "storage/store.hpp"
 
+#include <set>
+
 #include "storage/backup.hpp"
 #include "storage/data_dir.hpp"
 #include "storage/migrations.hpp"
@@ -133,6 +135,26 @@ void Store::write_erased(const std::function<void(Transaction&)>& f) {
 Signal& Store::commits() { return impl_->committed; }
 
 Payloads& Store::payloads() { return impl_->payloads; }
+
+void Store::give_back_space(const std::vector<PayloadRef>& deleted) {
+  constexpr std::string_view kSomePages = "PRAGMA incremental_vacuum(256)";
+  std::set<std::string> files;
+  for (const PayloadRef& payload : deleted) {
+    if (payload.file.empty() || !std::filesystem::exists(impl_->data_dir / payload.file)) continue;
+    files.insert(payload.file);
+  }
+  for (const std::string& file : files) impl_->writer.run([&] { impl_->files.writer(file).checkpoint(); });
+  impl_->writer.run([&] {
+    impl_->metadata->run(kSomePages);
+    impl_->metadata->checkpoint();
+  });
+}
+
+void Store::require_room(std::uint64_t bytes) const {
+  raywatch::require_room(impl_->data_dir, {.bytes = bytes, .reserve_bytes = impl_->options.min_free_bytes});
+}
+
+std::uint64_t Store::reserve_bytes() const { return impl_->options.min_free_bytes; }
 
 void Store::backup(const std::filesystem::path& directory) {
   const DeletionHold hold(impl_->payloads.impl());

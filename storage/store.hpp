@@ -7,12 +7,14 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "core/time.hpp"
 
 namespace raywatch {
 
 class Payloads;
+struct PayloadRef;
 class Signal;
 struct OpenReport;
 
@@ -96,6 +98,14 @@ class Store {
 
   /// Points and point classes. Put there first, then committed to the metadata by reference.
   Payloads& payloads();
+
+  /// Gives space that deletions freed back to the disk: of the payload files in which these payloads were, and a
+  /// bounded part of that of the metadata. What somebody still reads is left for a later call.
+  void give_back_space(const std::vector<PayloadRef>& deleted);
+
+  /// @throws DiskFull when so much more would leave less free than is kept.
+  void require_room(std::uint64_t bytes) const;
+  std::uint64_t reserve_bytes() const;
 
   /// Copies the running store consistently into `directory`, which must not exist or be empty. Writing goes on
   /// meanwhile.

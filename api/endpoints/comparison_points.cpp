@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <bitset>
 #include <map>
+#include <optional>
 
 #include "api/call.hpp"
 #include "api/conditional.hpp"
@@ -17,7 +19,7 @@ using Classes = std::bitset<kPointClasses>;
 struct StoredComparison {
   ComparisonRecord record;
   ScanRecord scan;
-  std::vector<ScanRecord> priors;
+  std::vector<std::optional<ScanRecord>> priors;  ///< nothing for one that was deleted
   Site site;
 };
 
@@ -32,7 +34,7 @@ StoredComparison read_comparison(Call& call, ComparisonId id) {
     stored.scan = scan_with(snapshot, stored.record.scan);
     stored.site = site_with(snapshot, stored.record.site);
     for (const ComparisonPrior& prior : stored.record.priors) {
-      stored.priors.push_back(scan_with(snapshot, prior.scan));
+      stored.priors.push_back(find_scan(snapshot, prior.scan));
     }
     return stored;
   });
@@ -97,6 +99,13 @@ void append_prior_points(PointSet& set, const PointCloud& points, std::span<cons
   }
 }
 
+/// Points are left out by request only.
+[[noreturn]] void refuse_without(const ComparisonRecord& comparison, std::uint32_t prior) {
+  throw NotFound("Scan " + std::to_string(comparison.priors[prior].scan.value) +
+                 ", a prior of this comparison, was deleted, and with it the points that were removed. Those of the "
+                 "compared scan are there: ask for class=unchanged,added,discrepancy,occluded,unseen,invalid.");
+}
+
 PointSet gather(Call& call, const StoredComparison& stored, const PointRequest& request, const Classes& wanted) {
   Payloads& payloads = call.services.store.payloads();
   const ComparisonPoints result = payloads.comparison_points(stored.record.payload);
@@ -107,7 +116,11 @@ PointSet gather(Call& call, const StoredComparison& stored, const PointRequest& 
   for (const PriorPoint& point : result.prior_points) by_prior[point.prior].push_back(point);
   for (const auto& [prior, changed] : by_prior) {
     if (prior >= stored.priors.size()) throw CorruptData("A stored change names a prior that the comparison lacks.");
-    const ScanRecord& scan = stored.priors[prior];
+    const bool is_wanted = std::ranges::any_of(
+        changed, [&](const PriorPoint& point) { return wanted[static_cast<std::size_t>(point.point_class)]; });
+    if (!is_wanted) continue;
+    if (!stored.priors[prior]) refuse_without(stored.record, prior);
+    const ScanRecord& scan = *stored.priors[prior];
     append_prior_points(set, payloads.scan_points(scan.payload), changed, output_from(stored, scan, request.frame),
                         wanted);
   }
@@ -120,7 +133,9 @@ std::string tag_of(const StoredComparison& stored, const PointRequest& request, 
   std::string content = stored.scan.sha256 + format_rfc3339(stored.record.created_at) +
                         std::to_string(stored.record.id.value) + to_json_text(render(origin_of(stored.site))) +
                         to_json_text(render(local_pose(stored.scan, stored.site)));
-  for (const ScanRecord& prior : stored.priors) content += to_json_text(render(local_pose(prior, stored.site)));
+  for (const std::optional<ScanRecord>& prior : stored.priors) {
+    content += prior ? to_json_text(render(local_pose(*prior, stored.site))) : "deleted";
+  }
   return entity_tag(content + text_of(request) + wanted.to_string());
 }
 

@@ -83,6 +83,20 @@ HttpAnswer get_history(Call& call);
 HttpAnswer stream_events(Call& call);
 HttpAnswer list_events(Call& call);
 
+HttpAnswer create_channel(Call& call);
+HttpAnswer list_channels(Call& call);
+HttpAnswer get_channel(Call& call);
+HttpAnswer replace_channel(Call& call);
+HttpAnswer delete_channel(Call& call);
+HttpAnswer test_channel(Call& call);
+
+HttpAnswer list_deliveries(Call& call);
+HttpAnswer retry_delivery(Call& call);
+
+HttpAnswer get_storage(Call& call);
+HttpAnswer list_deletions(Call& call);
+HttpAnswer preview_retention(Call& call);
+
 HttpAnswer create_backup(Call& call);
 
 }  // namespace raywatch::endpoints

@@ -1,7 +1,9 @@
 #include "storage/events.hpp"
 
 #include <memory>
+#include <optional>
 #include <ostream>
+#include <string>
 
 #include "api/call.hpp"
 #include "api/endpoints/endpoints.hpp"
@@ -34,6 +36,33 @@ EventId start_of(const Call& call, std::optional<std::int64_t> after) {
   return call.services.store.read([](const Snapshot& snapshot) { return last_event(snapshot); });
 }
 
+/// What a client asks for and the store does not have any more.
+struct Gap {
+  EventId resume;    ///< the stream goes on behind it
+  std::string text;  ///< for people
+};
+
+/// Nothing is left out without a word: events are kept for a time only, and a store that was put back from a backup
+/// knows less than its clients.
+std::optional<Gap> gap_behind(const Snapshot& snapshot, EventId after) {
+  const EventId first = first_event(snapshot), last = last_event(snapshot);
+  if (after.value + 1 < first.value) {
+    return Gap{EventId{first.value - 1}, "The events from " + std::to_string(after.value + 1) + " to " +
+                                             std::to_string(first.value - 1) +
+                                             " are not kept any more; read anew what is shown."};
+  }
+  if (after > last) {
+    return Gap{last, "There is no event " + std::to_string(after.value) + ", the latest is " +
+                         std::to_string(last.value) +
+                         ": the store was put back to an earlier state; read anew what is shown."};
+  }
+  return std::nullopt;
+}
+
+Json render(const Gap& gap, EventId after) {
+  return {{"id", gap.resume.value}, {"type", "gap"}, {"after", after.value}, {"text", gap.text}};
+}
+
 /// One client's stream: what is in the store and not yet sent, again and again.
 class EventStream {
  public:
@@ -55,16 +84,24 @@ class EventStream {
   }
 
  private:
+  /// Nothing of the store is held while it is sent: a client that does not take it must not keep others waiting.
   bool send_new(std::ostream& out) {
-    return store_.read([&](const Snapshot& snapshot) {
-      const std::vector<Event> events = events_after(snapshot, last_, site_, kBatch);
-      for (const Event& event : events) {
-        out << "id: " << event.id.value << "\nevent: " << event.type
-            << "\ndata: " << to_json_text(render(snapshot, event)) << "\n\n";
-        last_ = event.id;
-      }
-      return !events.empty();
-    }) && out.flush();
+    const std::string text = store_.read([&](const Snapshot& snapshot) { return next_batch(snapshot); });
+    out << text;
+    return !text.empty() && out.flush();
+  }
+
+  std::string next_batch(const Snapshot& snapshot) {
+    std::string text;
+    const auto add = [&](EventId id, const std::string& type, const Json& data) {
+      text += "id: " + std::to_string(id.value) + "\nevent: " + type + "\ndata: " + to_json_text(data) + "\n\n";
+      last_ = id;
+    };
+    if (const std::optional<Gap> gap = gap_behind(snapshot, last_)) add(gap->resume, "gap", render(*gap, last_));
+    for (const Event& event : events_after(snapshot, last_, site_, kBatch)) {
+      add(event.id, event.type, raywatch::render(snapshot, event));
+    }
+    return text;
   }
 
   Store& store_;
@@ -94,7 +131,8 @@ HttpAnswer stream_events(Call& call) {
 
 HttpAnswer list_events(Call& call) {
   const auto site_name = call.query.text("site");
-  const EventId after{call.query.integer("after", {.min = 0}).value_or(0)};
+  const auto given_after = call.query.integer("after", {.min = 0});
+  const EventId after{given_after.value_or(0)};
   const auto limit = static_cast<std::size_t>(call.query.integer("limit", {.min = 1, .max = 1000}).value_or(100));
   call.query.finish();
   const std::optional<SiteId> site = site_of(call.services, site_name);
@@ -103,8 +141,10 @@ HttpAnswer list_events(Call& call) {
     const bool more = events.size() > limit;
     if (more) events.resize(limit);
     Json items = Json::array();
-    for (const Event& event : events) items.push_back(render(snapshot, event));
+    for (const Event& event : events) items.push_back(raywatch::render(snapshot, event));
+    const std::optional<Gap> gap = given_after ? gap_behind(snapshot, after) : std::nullopt;
     return Json{{"items", std::move(items)},
+                {"gap", gap ? render(*gap, after) : Json(nullptr)},
                 {"next", more ? Json(std::to_string(events.back().id.value)) : Json(nullptr)}};
   }));
 }

@@ -27,6 +27,9 @@ class MetricsText {
   void head(const char* name, const char* type, const char* help) {
     out_ << "# HELP " << name << ' ' << help << "\n# TYPE " << name << ' ' << type << '\n';
   }
+  void add_of_kind(const char* name, ChannelKind kind, std::uint64_t value) {
+    out_ << name << "{kind=\"" << to_string(kind) << "\"} " << value << '\n';
+  }
   void add_answers(int hundreds, std::uint64_t value) {
     out_ << "raywatch_http_answers_total{status=\"" << hundreds << "xx\"} " << value << '\n';
   }
@@ -47,12 +50,42 @@ void add_daemon(MetricsText& metrics, const DaemonStatus& status) {
               status.comparisons_finished);
   metrics.add("raywatch_comparisons_failed_total", "counter", "Comparisons failed since the start.",
               status.comparisons_failed);
+  metrics.add("raywatch_retention_scans_deleted_total", "counter", "Scans that retention deleted since the start.",
+              status.scans_deleted);
+  metrics.add("raywatch_retention_bytes_deleted_total", "counter", "What these took.", status.bytes_deleted);
+  metrics.add("raywatch_retention_events_deleted_total", "counter", "Old events deleted since the start.",
+              status.events_deleted);
+  metrics.add("raywatch_folder_files_stored_total", "counter", "Files of watched folders stored since the start.",
+              status.folder_files_stored);
+  metrics.add("raywatch_folder_files_known_total", "counter", "Files that were stored already.",
+              status.folder_files_known);
+  metrics.add("raywatch_folder_files_failed_total", "counter", "Files that could not be taken in.",
+              status.folder_files_failed);
+  metrics.add("raywatch_folder_files_waiting", "gauge", "Files that lie in watched folders.",
+              status.folder_files_waiting);
   metrics.add("raywatch_index_cache_bytes", "gauge", "Memory of cached prior indexes.", status.index_cache_bytes);
   metrics.add("raywatch_index_cache_limit_bytes", "gauge", "Its limit.", status.index_cache_limit_bytes);
   metrics.add("raywatch_index_cache_hits_total", "counter", "Priors found in the cache.", status.index_cache_hits);
   metrics.add("raywatch_index_cache_misses_total", "counter", "Priors indexed anew.", status.index_cache_misses);
   metrics.add("raywatch_free_disk_bytes", "gauge", "Free space where the store lies.", status.free_disk_bytes);
   metrics.add("raywatch_resident_memory_bytes", "gauge", "Memory of the program.", status.resident_bytes);
+}
+
+void add_deliveries(MetricsText& metrics, const std::vector<DeliveryFigures>& figures) {
+  struct Figure {
+    const char *name, *type, *help;
+    std::uint64_t DeliveryFigures::*value;
+  };
+  constexpr Figure kFigures[] = {
+      {"raywatch_deliveries_pending", "gauge", "Messages that wait or are under way.", &DeliveryFigures::pending},
+      {"raywatch_deliveries_delivered_total", "counter", "Messages that arrived since the start.",
+       &DeliveryFigures::delivered},
+      {"raywatch_deliveries_failed_total", "counter", "Messages given up since the start.", &DeliveryFigures::failed}};
+  for (const Figure& figure : kFigures) {
+    metrics.head(figure.name, figure.type, figure.help);
+    for (const DeliveryFigures& of_kind : figures)
+      metrics.add_of_kind(figure.name, of_kind.kind, of_kind.*figure.value);
+  }
 }
 
 }  // namespace
@@ -76,7 +109,9 @@ HttpAnswer get_readiness(Call& call) {
 HttpAnswer get_metrics(Call& call) {
   call.query.finish();
   MetricsText metrics;
-  add_daemon(metrics, call.services.status());
+  const DaemonStatus status = call.services.status();
+  add_daemon(metrics, status);
+  add_deliveries(metrics, status.deliveries);
   metrics.head("raywatch_http_answers_total", "counter", "HTTP answers by the first digit of their status.");
   for (int hundreds = 2; hundreds <= 5; ++hundreds) {
     metrics.add_answers(hundreds, call.statistics.answers[static_cast<std::size_t>(hundreds)]);

@@ -83,6 +83,9 @@ HttpAnswer upload_scan(Call& call) {
   const auto wait_s = parse_wait_s(call.header("Prefer"));
   refuse_multipart(call.body);
   call.services.store.read([&](const Snapshot& snapshot) { sensor_named(snapshot, *hints.sensor); });
+  // Received bodies lie on the disk for a while, too: what is kept free is not for them.
+  const std::uint64_t announced_bytes = call.body.length().value_or(0);
+  if (announced_bytes <= call.config.max_body_bytes) call.services.store.require_room(announced_bytes);
   const UploadResult result = store_upload(call, hints);
   if (!wait_s) return render_result(call, result);
   const auto seconds = std::min(*wait_s, static_cast<std::int64_t>(call.config.max_wait_s));

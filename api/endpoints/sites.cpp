@@ -3,6 +3,7 @@
 #include "api/call.hpp"
 #include "api/conditional.hpp"
 #include "api/endpoints/endpoints.hpp"
+#include "api/endpoints/given_limits.hpp"
 #include "api/json_body.hpp"
 #include "api/json_object.hpp"
 #include "api/lookup.hpp"
@@ -15,13 +16,24 @@ namespace {
 
 constexpr IntegerBounds kEpsgCodes{.min = 1024, .max = 32767};
 
-SiteEdit parse_edit(JsonObject& body) {
+/// What is not given is left to the one who asks.
+struct GivenEdit {
   SiteEdit edit;
+  GivenLimits retention;
+};
+
+GivenEdit parse_edit(JsonObject& body) {
+  GivenEdit given;
+  SiteEdit& edit = given.edit;
   edit.time_zone = body.parsed("time_zone", checked_time_zone);
   edit.profile = body.parsed("profile", parse_profile);
   if (const auto epsg = body.integer("epsg", kEpsgCodes)) edit.epsg = static_cast<int>(*epsg);
   edit.origin_m = body.vector3("origin_m");
-  return edit;
+  if (auto retention = body.object("retention")) {
+    given.retention = parse_limits(*retention);
+    retention->finish();
+  }
+  return given;
 }
 
 Site parse_site(const nlohmann::json& json) {
@@ -30,21 +42,23 @@ Site parse_site(const nlohmann::json& json) {
   body.require("name");
   Site site;
   site.name = body.parsed("name", checked_name).value_or("");
-  const SiteEdit given = parse_edit(body);
+  const GivenEdit whole = parse_edit(body);
+  const SiteEdit& given = whole.edit;
   body.finish();
   errors.throw_if_any();
   site.time_zone = given.time_zone.value_or(site.time_zone);
   site.profile = given.profile.value_or(site.profile);
   site.epsg = given.epsg;
   site.origin_m = given.origin_m;
+  site.retention = whole.retention.applied_to({});
   return site;
 }
 
-SiteEdit parse_site_edit(const nlohmann::json& json) {
+GivenEdit parse_site_edit(const nlohmann::json& json) {
   FieldErrors errors;
   JsonObject body(json, "", errors);
-  const SiteEdit edit = parse_edit(body);
-  for (const char* name : {"time_zone", "profile", "epsg", "origin_m"}) body.refuse_null(name);
+  GivenEdit edit = parse_edit(body);
+  for (const char* name : {"time_zone", "profile", "epsg", "origin_m", "retention"}) body.refuse_null(name);
   body.finish();
   errors.throw_if_any();
   return edit;
@@ -85,12 +99,13 @@ HttpAnswer get_site(Call& call) {
 
 HttpAnswer edit_site(Call& call) {
   call.query.finish();
-  const SiteEdit edit = parse_site_edit(json_body(call));
+  GivenEdit given = parse_site_edit(json_body(call));
   const auto if_match = call.header("If-Match");
   const Site site = call.services.store.write([&](Transaction& transaction) {
     const Site before = site_named(transaction, call.path[0]);
     check_if_match(if_match, tag_of(before));
-    return raywatch::edit_site(transaction, before.id, edit);
+    given.edit.retention = given.retention.applied_to(before.retention);
+    return raywatch::edit_site(transaction, before.id, given.edit);
   });
   return with_body_tag(json_answer(render(site)), std::nullopt);
 }

@@ -95,8 +95,9 @@ int run_serve(const Options& options) {
   int signal = 0;
   sigwait(&stop_signals, &signal);
   spdlog::info("stopping on {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
-  if (daemon.stop() == StopOutcome::comparisons_abandoned) {
-    spdlog::warn("a comparison did not end in time; it is put back and starts again at the next start");
+  if (const StopOutcome outcome = daemon.stop(); outcome != StopOutcome::clean) {
+    spdlog::warn("a {} did not end in time; it is put back and starts again at the next start",
+                 outcome == StopOutcome::comparisons_abandoned ? "comparison" : "message");
     spdlog::shutdown();
     std::_Exit(kExitDone);  // its thread cannot be stopped, and the store is safe whenever the process ends
   }

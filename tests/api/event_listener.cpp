@@ -5,6 +5,7 @@
 #include <netinet/in.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -38,12 +39,35 @@ std::string EventListener::line() {
     std::array<char, 4096> piece{};
     const ssize_t size = ::recv(socket_, piece.data(), piece.size(), 0);
     if (size <= 0) throw std::runtime_error("the stream ended, or nothing came:\n" + received_);
-    received_.append(piece.data(), static_cast<std::size_t>(size));
+    raw_.append(piece.data(), static_cast<std::size_t>(size));
+    take_out_of_chunks();
   }
   const std::size_t end = received_.find('\n');
   std::string line = received_.substr(0, end);
   received_.erase(0, end + 1);
   return line;
+}
+
+void EventListener::take_out_of_chunks() {
+  if (const std::size_t end = raw_.find("\r\n\r\n"); in_head_ && end != std::string::npos) {
+    raw_.erase(0, end + 2);
+    in_head_ = false;
+  }
+  while (!in_head_) {
+    if (left_in_chunk_ == 0) {
+      // The line break behind the last chunk, or the head, and the length of the next.
+      const std::size_t end = raw_.find("\r\n", 2);
+      if (end == std::string::npos) return;
+      left_in_chunk_ = std::stoul(raw_.substr(2, end - 2), nullptr, 16);
+      raw_.erase(0, end + 2);
+      if (left_in_chunk_ == 0) return;
+    }
+    const std::size_t size = std::min(left_in_chunk_, raw_.size());
+    received_.append(raw_, 0, size);
+    raw_.erase(0, size);
+    left_in_chunk_ -= size;
+    if (left_in_chunk_ > 0) return;
+  }
 }
 
 nlohmann::json EventListener::take(std::size_t count) {

@@ -2,6 +2,7 @@
 
 #include <sys/socket.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -20,10 +21,15 @@ class EventListener {
   nlohmann::json take(std::size_t count);
 
  private:
-  /// The next line of the stream; what the chunks of HTTP add is left out.
+  /// The next line of the stream.
   std::string line();
+  /// HTTP sends the stream in chunks, which end anywhere.
+  void take_out_of_chunks();
 
   int socket_ = -1;
+  std::string raw_;
+  bool in_head_ = true;
+  std::size_t left_in_chunk_ = 0;
   std::string received_;
 };
 

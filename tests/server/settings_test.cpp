@@ -39,6 +39,41 @@ TEST_CASE("settings reach the parts that they belong to") {
   CHECK(settings.log.format == "json");
 }
 
+TEST_CASE("folders are tables of an array, each with a path, and what is wrong in one is said with its place") {
+  const Settings settings = parse_settings(
+      "[ingest]\nqueue_limit = 7\n[[ingest.folder]]\npath = '/a'\n"
+      "[[ingest.folder]]\npath = '/b'\nsensor = 'gate'\ntime_from = 'mtime'\nsettle_ms = 5\n",
+      "test.toml");
+  REQUIRE(settings.daemon.folders.size() == 2);
+  CHECK(settings.daemon.queue_limit == 7);
+  CHECK(settings.daemon.folders[0].path == "/a");
+  CHECK(settings.daemon.folders[0].time_from == TimeFrom::name);
+  CHECK(settings.daemon.folders[1].sensor == "gate");
+  CHECK(settings.daemon.folders[1].time_from == TimeFrom::mtime);
+  CHECK(settings.daemon.folders[1].settle == std::chrono::milliseconds(5));
+  const auto complaint = [](const char* toml) {
+    try {
+      parse_settings(toml, "test.toml");
+    } catch (const InvalidInput& error) {
+      return error.fields()[0].field + ": " + error.fields()[0].message;
+    }
+    return std::string("it was accepted");
+  };
+  CHECK(complaint("[[ingest.folder]]\nsensor = 'gate'\n") == "ingest.folder[0].path: line 1: is missing");
+  CHECK(complaint("[[ingest.folder]]\npath = '/a'\nsensr = 'gate'\n") ==
+        "ingest.folder[0].sensr: line 3: unknown key; did you mean ingest.folder[0].sensor?");
+  CHECK(complaint("[ingest]\nfolder = '/a'\n") ==
+        "ingest.folder: line 2: must be an array of tables, [[ingest.folder]], not string");
+}
+
+TEST_CASE("limits of what is kept reach the parts that keep it") {
+  const RetentionConfig kept =
+      parse_settings("[retention]\nmax_age_days = 30\nmax_mib = 2\nevents_max_age_days = 7\n", "test.toml")
+          .daemon.retention;
+  CHECK(limits_in_force({}, kept.defaults) == RetentionLimits{.max_age_days = 30, .max_bytes = 2u << 20});
+  CHECK(kept.events_max_age == std::chrono::days(7));
+}
+
 TEST_CASE("a port that is none is refused with what is allowed") {
   try {
     parse_settings("[http]\nport = 70000\n", "test.toml");

@@ -236,6 +236,22 @@ void add_mixed_cell(const Difference& difference, double area_m2, VolumeChange& 
 
 }  // namespace
 
+double mean_height_m(const HeightField& field, const Eigen::AlignedBox2d& area_m) {
+  const FieldLayout& layout = field.layout();
+  const Eigen::Array2d from = (area_m.min() - layout.origin_m) / layout.cell_m;
+  const Eigen::Array2d to = (area_m.max() - layout.origin_m) / layout.cell_m;
+  double sum = 0.0;
+  for (double row = std::floor(from.y()); row < to.y(); ++row) {
+    for (double column = std::floor(from.x()); column < to.x(); ++column) {
+      const Eigen::Array2d low = from.max(Eigen::Array2d(column, row));
+      const Eigen::Array2d high = to.min(Eigen::Array2d(column + 1.0, row + 1.0));
+      const Eigen::Vector2d middle_m = layout.origin_m + layout.cell_m * (0.5 * (low + high)).matrix();
+      sum += field.height_m(middle_m) * (high - low).prod();
+    }
+  }
+  return sum / (to - from).prod();
+}
+
 VolumeChange volume_change(const HeightField& before, const HeightField& after) {
   const FieldLayout& layout = before.layout();
   assert(layout.columns == after.layout().columns && layout.rows == after.layout().rows);

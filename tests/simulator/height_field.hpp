@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -78,6 +78,10 @@ class HeightField {
   std::vector<double> heights_m_;
   std::vector<Level> levels_;  ///< 0: single cells; each next one has blocks of 2 x 2
 };
+
+/// The mean height over a rectangle inside the field, exactly: over any rectangle, a bilinear function has the mean that
+/// it has in the middle.
+double mean_height_m(const HeightField& field, const Eigen::AlignedBox2d& area_m);
 
 /// What lies between two fields of one layout. Positive numbers.
 struct VolumeChange {

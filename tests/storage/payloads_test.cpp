@@ -103,17 +103,14 @@ TEST_CASE_FIXTURE(StoreFixture, "a question about one direction reads few chunks
   }
   const PayloadRef ref = store.payloads().put_scan(site.id, at_second(0), ring, empty_panorama());
   for (const Eigen::Vector3d& direction : {Eigen::Vector3d(0.0, 9.0, 1.0), Eigen::Vector3d(-9.0, 0.0, 1.0)}) {
-    const std::vector<PointRun> runs = store.payloads().scan_points_around(ref, {direction, 0.01});
-    CHECK(runs.size() <= 3);
+    const std::vector<PointCloud> chunks = store.payloads().scan_points_around(ref, {direction, 0.01});
+    CHECK(chunks.size() <= 3);
     std::size_t found = 0, wanted = 0;
     const auto near = [&](const Eigen::Vector3f& p) {
       return p.cast<double>().normalized().dot(direction.normalized()) > std::cos(0.01);
     };
-    for (const PointRun& run : runs) {
-      for (std::size_t i = 0; i < run.points.size(); ++i) {
-        CHECK(run.points[i] == ring[run.first + i]);
-        found += near(run.points[i]) ? 1u : 0u;
-      }
+    for (const PointCloud& chunk : chunks) {
+      for (std::size_t i = 0; i < chunk.size(); ++i) found += near(chunk[i]) ? 1u : 0u;
     }
     for (std::size_t i = 0; i < ring.size(); ++i) wanted += near(ring[i]) ? 1u : 0u;
     CHECK(found == wanted);

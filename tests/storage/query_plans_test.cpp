@@ -5,10 +5,14 @@
 
 #include "storage/alerts.hpp"
 #include "storage/baselines.hpp"
+#include "storage/deletions.hpp"
+#include "storage/deliveries.hpp"
 #include "storage/events.hpp"
+#include "storage/retention.hpp"
 #include "storage/rules.hpp"
 #include "storage/snapshot.hpp"
 #include "storage/sqlite.hpp"
+#include "storage/storage_use.hpp"
 #include "storage/tracks.hpp"
 #include "storage/zones.hpp"
 #include "tests/storage/store_fixture.hpp"
@@ -116,6 +120,29 @@ void watch(const Snapshot& s, SiteId site, SensorId sensor) {
   is_in_baseline(s, ScanId{1});
 }
 
+void tell(const Snapshot& s, SiteId site) {
+  list_channels(s, site, {});
+  enabled_channels(s);
+  find_channel(s, ChannelId{1});
+  for_each_filter(3, [&](unsigned bits) {
+    DeliveryFilter filter;
+    if (bits & 1) filter.channel = ChannelId{1};
+    if (bits & 2) filter.state = DeliveryState::pending;
+    if (bits & 4) filter.alert = AlertId{1};
+    list_deliveries(s, filter, {});
+  });
+  next_attempt_of(s, ChannelId{1});
+  unfinished_deliveries(s);
+}
+
+void keep(const Snapshot& s, SiteId site) {
+  for (const std::optional<SiteId> of : {std::optional<SiteId>(), std::optional(site)}) list_deletions(s, of, {});
+  plan_retention(s, site, {.in_force = {.max_age_days = 1}, .now = at_second(1'000'000)}, 100);
+  has_old_logs(s, at_second(0));
+  growth_of(s, site, at_second(0));
+  first_event(s);
+}
+
 void ask_for_priors(const Snapshot& s, SiteId site, VantageId vantage) {
   nearest_vantages(s, site, Eigen::Vector3d::Zero(), 2);
   nearest_vantages(s, site, Eigen::Vector3d::Zero(), 64);
@@ -137,6 +164,8 @@ TEST_CASE_FIXTURE(StoreFixture, "no question to the store reads a whole table or
     list_everything(s, site.id, sensor.id, vantage);
     ask_for_priors(s, site.id, vantage);
     watch(s, site.id, sensor.id);
+    tell(s, site.id);
+    keep(s, site.id);
     // Sites are few, and each is asked once; counting stops at a limit.
     const std::set<std::string> known{"SCAN sites", "SCAN (subquery-1)"};
     const std::vector<std::string> statements = statements_of(database_of(s));

@@ -71,6 +71,7 @@ ScanRecord add_scan_with_points(Store& store, const Sensor& sensor, const ScanSk
   ScanRecord scan = sketched_scan(sensor, sketch);
   scan.points = points.size();
   scan.payload = store.payloads().put_scan(sensor.site, sketch.captured_at, points, empty_panorama());
+  scan.stored_bytes = store.payloads().stored_bytes(scan.payload);
   return store.write([&](Transaction& transaction) { return insert_scan(transaction, scan); });
 }
 
