@@ -11,7 +11,7 @@ test('the overview shows how sites and sensors fare, in the time zone of the sit
     await expect(row).toContainText(/\d+\s%/);
     await expect(row.getByRole('time')).toHaveAttribute('title', /2026, 09:0\d:\d\d CET \(Europe\/Berlin\)/);
   }
-  await expect(page.getByRole('region', { name: 'The daemon' })).toContainText(/[\d.]+\sGB free/);
+  await expect(page.getByRole('region', { name: 'The daemon' })).toContainText(/[\d.]+\sGB free of [\d.]+\sGB/);
   await expect(page.getByRole('region', { name: 'The daemon' })).toContainText('nothing waits');
 });
 

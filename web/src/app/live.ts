@@ -8,7 +8,7 @@ const kApi = '/api/v1/';
 
 /** The first segments of the addresses that events of a type (its part before the dot) touch. */
 const kTouched: Readonly<Record<string, readonly string[]>> = {
-  scan: ['scans', 'vantages', 'sensors', 'candidates', 'storage'],
+  scan: ['scans', 'vantages', 'sensors', 'candidates'],
   comparison: ['comparisons', 'scans', 'changes', 'zones'],
   track: ['tracks', 'alerts'],
   alert: ['alerts'],

@@ -1,8 +1,11 @@
 import { useEffect } from 'preact/hooks';
 import { loader, useResource } from '../../app/app';
+import { address, type Schema } from '../../lib/api';
 import { bytes, count, counted, percent } from '../../lib/format';
 import { Loaded } from '../../ui/states';
 import { kMetrics, parseMetrics } from './metrics';
+
+const kStorage = address('/api/v1/storage');
 
 /** No event tells that the disk fills or that a worker died. */
 const kAskEveryMs = 30_000;
@@ -10,7 +13,7 @@ const kAskEveryMs = 30_000;
 /** Disk, queue and memory, in the daemon's own figures. */
 export function DaemonFigures() {
   useEffect(() => {
-    const timer = setInterval(() => loader.invalidate((key) => key === kMetrics), kAskEveryMs);
+    const timer = setInterval(() => loader.invalidate((key) => key === kMetrics || key === kStorage), kAskEveryMs);
     return () => clearInterval(timer);
   }, []);
   return (
@@ -36,7 +39,7 @@ function Figures({ of }: { of: Readonly<Record<string, number>> }) {
       <div>
         <dt>Disk</dt>
         <dd>
-          {bytes(value('free_disk_bytes'))} free
+          <Disk storage={useResource(kStorage).data} />
           {value('store_writable') !== 1 && <strong class="overview-bad">, nothing can be stored</strong>}
         </dd>
       </div>
@@ -70,5 +73,18 @@ function Figures({ of }: { of: Readonly<Record<string, number>> }) {
         <dd>{asked === 0 ? 'none asked yet' : percent(value('index_cache_hits_total') / asked)}</dd>
       </div>
     </dl>
+  );
+}
+
+/** How much is left of the disk, for how long at the rate of late, and what the store takes of it. */
+function Disk({ storage }: { storage: Schema<'Storage'> | undefined }) {
+  if (!storage) return null;
+  const { disk } = storage;
+  const kept = storage.metadata_bytes + storage.sites.reduce((sum, site) => sum + site.payload_bytes, 0);
+  return (
+    <>
+      {bytes(disk.free_bytes)} free of {bytes(disk.bytes)}
+      {disk.days_to_full !== null && `, full in ${counted(Math.floor(disk.days_to_full), 'day')}`}; {bytes(kept)} kept
+    </>
   );
 }
