@@ -46,7 +46,8 @@ RetentionState retention_state(Store& store, SiteId site, const RetentionLimits&
 struct ExpiredScan {
   ScanId scan;
   Time received_at;
-  std::uint64_t bytes = 0;  ///< of its points and of the classes in its comparisons
+  /// Of its points and of the classes in its comparisons. The disk gets back a little more, as pages are not full.
+  std::uint64_t bytes = 0;
   DeletionReason reason = DeletionReason::age;
 };
 
