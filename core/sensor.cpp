@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t kSamples = 600;
 constexpr double kWidestSearch_rad = 0.2;
+/// Where so many returns lie around one and none on one of its sides, it stands at the edge of what the sensor sees.
+constexpr std::size_t kReturnsAround = 2000;
 
 template <class T>
 T median(std::vector<T> values) {
@@ -26,6 +28,7 @@ T median(std::vector<T> values) {
 struct Neighbours {
   double east = std::numeric_limits<double>::infinity();
   double west = east, north = east, south = east;
+  std::size_t looked_at = 0;
 
   bool complete() const { return std::isfinite(std::max({east, west, north, south})); }
   void offer(double azimuth_rad, double elevation_rad) {
@@ -52,6 +55,7 @@ Neighbours look_around(const PriorIndex::Impl& index, std::uint32_t center, doub
     for (std::int64_t c = first; c <= last; ++c) {
       const std::uint32_t cell = grid.first_cell(row) + static_cast<std::uint32_t>((c + columns) % columns);
       for (std::uint32_t i = index.first[cell]; i < index.first[cell + 1]; ++i) {
+        ++neighbours.looked_at;
         const Direction to = direction_of(index.returns[i]);
         const double turn = std::remainder(to.azimuth_rad - from.azimuth_rad, 2.0 * std::numbers::pi);
         neighbours.offer(turn * std::cos(from.elevation_rad), to.elevation_rad - from.elevation_rad);
@@ -70,7 +74,7 @@ std::optional<Eigen::Vector2d> angular_resolution(const PriorIndex::Impl& index)
     Neighbours neighbours;
     for (double radius = 2.0 * index.grid.cell_rad(); radius <= kWidestSearch_rad; radius *= 2.0) {
       neighbours = look_around(index, center, radius);
-      if (neighbours.complete()) break;
+      if (neighbours.complete() || neighbours.looked_at > kReturnsAround) break;
     }
     if (!neighbours.complete()) continue;
     azimuth.push_back(std::max(neighbours.east, neighbours.west));

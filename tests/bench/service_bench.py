@@ -176,7 +176,7 @@ def stream(daemon, arguments):
         worst_ms = max(worst_ms, 1000 * (time.perf_counter() - began))
         if number % 10 == 9:
             queue = max(queue, daemon.metric("raywatch_queue_length"))
-            memory = max(memory, daemon.metric("process_resident_memory_bytes"))
+            memory = max(memory, daemon.metric("raywatch_resident_memory_bytes"))
         if number % 100 == 99:
             late = time.perf_counter() - start - number / arguments.rate
             print(f"{number + 1} scans, {late:.2f} s late, queue {daemon.metric('raywatch_queue_length'):.0f}", flush=True)
