@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kSamples = 600;
 constexpr double kWidestSearch_rad = 0.2;
 /// Where so many returns lie around one and none on one of its sides, it stands at the edge of what the sensor sees.
-constexpr std::size_t kReturnsAround = 2000;
+constexpr std::size_t kReturnsAround = 800;
 
 template <class T>
 T median(std::vector<T> values) {
