@@ -1,16 +1,13 @@
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <random>
 #include <set>
 #include <vector>
 
-#include "storage/sqlite.hpp"
 #include "storage/sweep.hpp"
+#include "tests/storage/killed_child.hpp"
 #include "tests/storage/store_fixture.hpp"
 
 namespace raywatch {
@@ -64,47 +61,6 @@ void finish_with_points(Store& store, const Job& job) {
   }
 }
 
-/// Runs `work` in a child, kills it after some reports, and returns all that it reported.
-std::vector<Report> work_until_killed(const std::filesystem::path& data_dir, std::int32_t number, int reports,
-                                      std::uint64_t then_spins) {
-  int pipe_ends[2] = {};
-  REQUIRE(pipe(pipe_ends) == 0);
-  const pid_t child = fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {
-    close(pipe_ends[0]);
-    try {
-      work(data_dir, number, pipe_ends[1]);
-    } catch (...) {
-    }
-    _exit(2);
-  }
-  close(pipe_ends[1]);
-  std::vector<Report> all;
-  Report one{};
-  const auto read_one = [&] { return read(pipe_ends[0], &one, sizeof one) == sizeof one; };
-  while (reports-- > 0 && read_one()) all.push_back(one);
-  // Somewhere between two reports: a busy wait whose length the seed decides.
-  for (std::uint64_t spin = 0; spin < then_spins; ++spin) std::atomic_signal_fence(std::memory_order_seq_cst);
-  kill(child, SIGKILL);
-  while (read_one()) all.push_back(one);
-  close(pipe_ends[0]);
-  int status = 0;
-  REQUIRE(waitpid(child, &status, 0) == child);
-  REQUIRE(WIFSIGNALED(status));
-  return all;
-}
-
-std::size_t stored_payloads(const Store& store) {
-  std::size_t count = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(store.data_dir() / "payload")) {
-    if (entry.path().extension() != ".db") continue;
-    Database database(entry.path(), Database::Access::read_only);
-    count += database.find<std::size_t>("SELECT count(*) FROM payloads").value();
-  }
-  return count;
-}
-
 /// Everything that was ever reported must be there, whole and once; nothing may lie around.
 void check_store(Store& store, const std::set<std::int32_t>& scans, const std::set<std::int32_t>& finished) {
   const auto stored =
@@ -150,7 +106,8 @@ TEST_CASE("after any kill everything that was reported as durable is there, whol
     const std::int32_t next = 1000 * (round + 1);
     const int reports = std::uniform_int_distribution(0, 12)(random);
     const auto spins = std::uniform_int_distribution<std::uint64_t>(0, 4'000'000)(random);
-    for (const Report& one : work_until_killed(directory.path(), next, reports, spins)) {
+    const auto work_on = [&](int pipe) { work(directory.path(), next, pipe); };
+    for (const Report& one : reports_until_killed<Report>(work_on, {.reports = reports, .spins = spins})) {
       if (one.kind == Report::scan) scans.insert(one.number);
       if (one.kind == Report::finished) CHECK(finished.insert(one.number).second);
     }

@@ -1,14 +1,11 @@
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <csignal>
 #include <random>
 
 #include "storage/retention.hpp"
-#include "storage/sqlite.hpp"
 #include "storage/sweep.hpp"
+#include "tests/storage/killed_child.hpp"
 #include "tests/storage/store_fixture.hpp"
 
 namespace raywatch {
@@ -37,46 +34,6 @@ Time taken_at(int number) { return at_second(1000 + number); }
   }
 }
 
-/// @returns the scans that were said to be deleted before the kill.
-std::vector<std::int64_t> delete_until_killed(const std::filesystem::path& data_dir, int reports, std::uint64_t spins) {
-  int pipe_ends[2] = {};
-  REQUIRE(pipe(pipe_ends) == 0);
-  const pid_t child = fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {
-    close(pipe_ends[0]);
-    try {
-      delete_all(data_dir, pipe_ends[1]);
-    } catch (...) {
-    }
-    _exit(2);
-  }
-  close(pipe_ends[1]);
-  std::vector<std::int64_t> deleted;
-  std::int64_t scan = 0;
-  const auto read_one = [&] { return read(pipe_ends[0], &scan, sizeof scan) == sizeof scan; };
-  while (reports-- > 0 && read_one()) deleted.push_back(scan);
-  // Somewhere between two reports: a busy wait whose length the seed decides.
-  for (std::uint64_t spin = 0; spin < spins; ++spin) std::atomic_signal_fence(std::memory_order_seq_cst);
-  kill(child, SIGKILL);
-  while (read_one()) deleted.push_back(scan);
-  close(pipe_ends[0]);
-  int status = 0;
-  REQUIRE(waitpid(child, &status, 0) == child);
-  REQUIRE(WIFSIGNALED(status));
-  return deleted;
-}
-
-std::size_t payloads_on_disk(const Store& store) {
-  std::size_t count = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(store.data_dir() / "payload")) {
-    if (entry.path().extension() != ".db") continue;
-    Database database(entry.path(), Database::Access::read_only);
-    count += database.find<std::size_t>("SELECT count(*) FROM payloads").value();
-  }
-  return count;
-}
-
 TEST_CASE("after a kill in the middle of retention each scan is there as a whole, or gone as a whole and recorded") {
   const TempDir directory;
   {
@@ -92,7 +49,8 @@ TEST_CASE("after a kill in the middle of retention each scan is there as a whole
     CAPTURE(round);
     const int reports = std::uniform_int_distribution(1, 5)(random);
     const auto spins = std::uniform_int_distribution<std::uint64_t>(0, 3'000'000)(random);
-    const std::vector<std::int64_t> deleted = delete_until_killed(directory.path(), reports, spins);
+    const std::vector<std::int64_t> deleted = reports_until_killed<std::int64_t>(
+        [&](int pipe) { delete_all(directory.path(), pipe); }, {.reports = reports, .spins = spins});
     Store store(options_for(directory.path()));
     CHECK(store.open_report().warnings.empty());
     const auto scans =
@@ -109,7 +67,7 @@ TEST_CASE("after a kill in the middle of retention each scan is there as a whole
     const std::size_t records =
         store.read([](const Snapshot& s) { return list_deletions(s, {}, {.limit = 1000, .cursor = {}}); }).items.size();
     CHECK(records == kScans - scans.size());
-    if (!scans.empty()) CHECK(payloads_on_disk(store) == scans.size());
+    if (!scans.empty()) CHECK(stored_payloads(store) == scans.size());
   }
   CHECK(left < kScans);
 }

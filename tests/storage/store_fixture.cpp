@@ -3,6 +3,8 @@
 #include <cstring>
 #include <random>
 
+#include "storage/sqlite.hpp"
+
 namespace raywatch {
 namespace {
 
@@ -101,6 +103,16 @@ Job finish_next_job(Store& store, SiteId site, const std::vector<Change>& change
     finish_job(transaction, job, result, at_second(1));
     return job;
   });
+}
+
+std::size_t stored_payloads(const Store& store) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(store.data_dir() / "payload")) {
+    if (entry.path().extension() != ".db") continue;
+    Database database(entry.path(), Database::Access::read_only);
+    count += database.find<std::size_t>("SELECT count(*) FROM payloads").value();
+  }
+  return count;
 }
 
 }  // namespace raywatch

@@ -45,6 +45,9 @@ Change change_at(const Eigen::Vector3d& place_m, ChangeKind kind = ChangeKind::a
 /// Starts the next job of the site and finishes it with these changes.
 Job finish_next_job(Store& store, SiteId site, const std::vector<Change>& changes = {});
 
+/// How many payloads lie in the files of a store, with or without an owner.
+std::size_t stored_payloads(const Store& store);
+
 /// A store in a directory of its own, with one site and one sensor.
 struct StoreFixture {
   TempDir directory;
