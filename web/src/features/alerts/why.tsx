@@ -6,6 +6,7 @@ import { KindBadge } from '../../ui/badges';
 import { Icon } from '../../ui/icon';
 import { Time } from '../../ui/time';
 import { ViewLink } from '../../ui/view_link';
+import { AlertPicture } from './alert_picture';
 import { ruleInWords } from './rule_words';
 import { SightStrip } from './sight_strip';
 
@@ -35,6 +36,7 @@ export function Why({ alert, why }: { alert: Schema<'Alert'>; why: Reason }) {
           </ViewLink>
         </p>
       </section>
+      {why.changes[0] !== undefined && <AlertPicture change={why.changes[0]} />}
       <section class="alert-part">
         <h3>Who saw it</h3>
         <SightStrip observations={why.observations} site={alert.site} />

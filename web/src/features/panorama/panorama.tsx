@@ -28,23 +28,30 @@ export interface PanoramaPanelProps {
   changes: readonly Change[];
 }
 
-export function PanoramaPanel({ scan, changes }: PanoramaPanelProps) {
-  const found = useResource(address('/api/v1/scans/{id}', { path: { id: scan } }));
-  const panorama = useResource(address('/api/v1/scans/{id}/panorama', { path: { id: scan } }));
+export function PanoramaPanel(props: PanoramaPanelProps) {
   return (
     <section class="panel" aria-labelledby="panorama">
       <header class="panel-head">
         <h2 id="panorama">Panorama</h2>
-        <span class="muted">scan {scan}, from where it was taken</span>
+        <span class="muted">scan {props.scan}, from where it was taken</span>
       </header>
-      <Loaded of={found} what="scan">
-        {(data) => (
-          <Loaded of={panorama} what="panorama">
-            {(ranges) => <Panorama scan={data} panorama={ranges} changes={changes} />}
-          </Loaded>
-        )}
-      </Loaded>
+      <PanoramaFigure {...props} />
     </section>
+  );
+}
+
+/** The picture itself. */
+export function PanoramaFigure({ scan, changes }: PanoramaPanelProps) {
+  const found = useResource(address('/api/v1/scans/{id}', { path: { id: scan } }));
+  const panorama = useResource(address('/api/v1/scans/{id}/panorama', { path: { id: scan } }));
+  return (
+    <Loaded of={found} what="scan">
+      {(data) => (
+        <Loaded of={panorama} what="panorama">
+          {(ranges) => <Panorama scan={data} panorama={ranges} changes={changes} />}
+        </Loaded>
+      )}
+    </Loaded>
   );
 }
 
