@@ -5,6 +5,8 @@
 import { type ComponentType } from 'preact';
 import { AlertsView } from '../features/alerts/alerts_view';
 import { BaselinesView } from '../features/baselines/baselines_view';
+import { ChangeView } from '../features/changes/change_view';
+import { ComparisonSceneView, ScanSceneView } from '../features/changes/scan_scene_view';
 import { OverviewView } from '../features/overview/overview_view';
 import { ScanView } from '../features/scans/scan_view';
 import { ScansView } from '../features/scans/scans_view';
@@ -38,6 +40,9 @@ export const kViews: readonly View[] = [
   view('/alerts/:id', 'Alert', AlertsView),
   view('/scans', 'Scans', ScansView, { icon: 'scan' }),
   view('/scans/:id', 'Scan', ScanView),
+  view('/scans/:id/3d', 'Scan in 3D', ScanSceneView),
+  view('/comparisons/:id/3d', 'Comparison in 3D', ComparisonSceneView),
+  view('/changes/:id', 'Change', ChangeView),
   view('/sensors', 'Sensors', SensorsView, { icon: 'sensor' }),
   view('/sensors/:name', 'Sensor', SensorView),
   view('/baselines', 'Baselines', BaselinesView, { icon: 'baseline' }),
