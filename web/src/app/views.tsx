@@ -12,6 +12,7 @@ import { SensorView } from '../features/sensors/sensor_view';
 import { SensorsView } from '../features/sensors/sensors_view';
 import { SilencesView } from '../features/silences/silences_view';
 import { type IconName } from '../ui/icon';
+import { lazy } from './lazy';
 import { matchPath } from './router';
 
 /** What the placeholders of the view's pattern stand for: `/alerts/:id` gives `{id}`. */
@@ -36,8 +37,41 @@ export const kViews: readonly View[] = [
   view('/', 'Overview', OverviewView, { icon: 'overview' }),
   view('/alerts', 'Alerts', AlertsView, { icon: 'alert' }),
   view('/alerts/:id', 'Alert', AlertsView),
+  view(
+    '/history',
+    'History',
+    lazy(() => import('../features/history/history_view').then((module) => module.HistoryView)),
+    { icon: 'history' },
+  ),
+  view(
+    '/tracks',
+    'Tracks',
+    lazy(() => import('../features/tracks/tracks_view').then((module) => module.TracksView)),
+    { icon: 'change' },
+  ),
+  view(
+    '/tracks/:id',
+    'Track',
+    lazy(() => import('../features/tracks/track_view').then((module) => module.TrackView)),
+  ),
   view('/scans', 'Scans', ScansView, { icon: 'scan' }),
   view('/scans/:id', 'Scan', ScanView),
+  view(
+    '/comparisons',
+    'Comparisons',
+    lazy(() => import('../features/comparisons/comparisons_view').then((module) => module.ComparisonsView)),
+    { icon: 'compare' },
+  ),
+  view(
+    '/comparisons/:id',
+    'Comparison',
+    lazy(() => import('../features/comparisons/comparison_view').then((module) => module.ComparisonView)),
+  ),
+  view(
+    '/compare',
+    'Compare by hand',
+    lazy(() => import('../features/comparisons/compare_view').then((module) => module.CompareView)),
+  ),
   view('/sensors', 'Sensors', SensorsView, { icon: 'sensor' }),
   view('/sensors/:name', 'Sensor', SensorView),
   view('/baselines', 'Baselines', BaselinesView, { icon: 'baseline' }),
