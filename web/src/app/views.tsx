@@ -12,6 +12,7 @@ import { SensorView } from '../features/sensors/sensor_view';
 import { SensorsView } from '../features/sensors/sensors_view';
 import { SilencesView } from '../features/silences/silences_view';
 import { type IconName } from '../ui/icon';
+import { lazy } from './lazy';
 import { matchPath } from './router';
 
 /** What the placeholders of the view's pattern stand for: `/alerts/:id` gives `{id}`. */
@@ -42,6 +43,12 @@ export const kViews: readonly View[] = [
   view('/sensors/:name', 'Sensor', SensorView),
   view('/baselines', 'Baselines', BaselinesView, { icon: 'baseline' }),
   view('/silences', 'Silences', SilencesView, { icon: 'silence' }),
+  view(
+    '/zones',
+    'Zones',
+    lazy(() => import('../features/zones/zones_view').then((module) => module.ZonesView)),
+    { icon: 'zone' },
+  ),
 ];
 
 /** The view that a path shows, with what its placeholders stand for. */

@@ -27,6 +27,7 @@ const kPaths = {
   upload: 'M12 16V4M7 9l5-5 5 5M4 16v4h16v-4',
   next: 'M9 5l7 7-7 7',
   back: 'M15 5l-7 7 7 7',
+  whole: 'M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5',
   live: 'M5 12a7 7 0 0 1 14 0M8.5 13a3.5 3.5 0 0 1 7 0M12 15.5v5',
 } as const;
 
