@@ -33,6 +33,14 @@ const view = (pattern: string, title: string, component: ComponentType<never>, m
   ...(menu ? { menu } : {}),
 });
 
+/** A view of a module that is loaded when the first of its views is shown. */
+function loaded<Module>(load: () => Promise<Module>): (name: keyof Module) => ComponentType<never> {
+  return (name) =>
+    lazy<ViewProps>(async () => (await load())[name] as ComponentType<ViewProps>) as ComponentType<never>;
+}
+
+const zones = loaded(() => import('../features/zones/views'));
+
 export const kViews: readonly View[] = [
   view('/', 'Overview', OverviewView, { icon: 'overview' }),
   view('/alerts', 'Alerts', AlertsView, { icon: 'alert' }),
@@ -43,12 +51,9 @@ export const kViews: readonly View[] = [
   view('/sensors/:name', 'Sensor', SensorView),
   view('/baselines', 'Baselines', BaselinesView, { icon: 'baseline' }),
   view('/silences', 'Silences', SilencesView, { icon: 'silence' }),
-  view(
-    '/zones',
-    'Zones',
-    lazy(() => import('../features/zones/zones_view').then((module) => module.ZonesView)),
-    { icon: 'zone' },
-  ),
+  view('/zones', 'Zones', zones('ZonesView'), { icon: 'zone' }),
+  view('/zones/new', 'New zone', zones('NewZoneView')),
+  view('/zones/:id', 'Zone', zones('ZoneView')),
 ];
 
 /** The view that a path shows, with what its placeholders stand for. */
