@@ -40,6 +40,7 @@ function loaded<Module>(load: () => Promise<Module>): (name: keyof Module) => Co
 }
 
 const zones = loaded(() => import('../features/zones/views'));
+const rules = loaded(() => import('../features/rules/views'));
 
 export const kViews: readonly View[] = [
   view('/', 'Overview', OverviewView, { icon: 'overview' }),
@@ -54,6 +55,9 @@ export const kViews: readonly View[] = [
   view('/zones', 'Zones', zones('ZonesView'), { icon: 'zone' }),
   view('/zones/new', 'New zone', zones('NewZoneView')),
   view('/zones/:id', 'Zone', zones('ZoneView')),
+  view('/rules', 'Rules', rules('RulesView'), { icon: 'rule' }),
+  view('/rules/new', 'New rule', rules('NewRuleView')),
+  view('/rules/:id', 'Rule', rules('RuleView')),
 ];
 
 /** The view that a path shows, with what its placeholders stand for. */

@@ -74,7 +74,10 @@ function optionsOf(props: ChartProps, element: HTMLElement): uPlot.Options {
     height: kHeight_px,
     tzDate: (seconds) => uPlot.tzDate(new Date(seconds * 1000), props.time_zone),
     scales: { y: props.range ? { range: [...props.range] } : {} },
-    axes: [axis, { ...axis, size: 56, values: (_, values) => values.map((value) => `${value}\u00a0${props.unit}`) }],
+    axes: [
+      { ...axis, values: kTimeMarks },
+      { ...axis, size: 56, values: (_, values) => values.map((value) => `${value}\u00a0${props.unit}`) },
+    ],
     series: [
       { label: 'Time', value: '{YYYY}-{MM}-{DD} {HH}:{mm}:{ss}' },
       ...props.series.map(({ name }, index) => {

@@ -16,6 +16,7 @@ import { EditedElsewhere, useVersion } from '../../ui/edited_elsewhere';
 import { SitePicker } from '../../ui/site_picker';
 import { EmptyState, Loaded } from '../../ui/states';
 import { Ago } from '../../ui/time';
+import { useSaving } from '../../ui/use_saving';
 import { ViewLink } from '../../ui/view_link';
 import { differencesOf, draftOf, emptyDraft } from './draft';
 import { extentInWords } from './extent_words';
@@ -69,7 +70,7 @@ function OneZone({ resource }: { resource: Resource<Zone> & { data: Zone } }) {
         id={zone.id}
         initial={draftOf(base.data)}
         corners={placesOf(base.data)}
-        problem={problem?.kind === 'precondition-failed' ? undefined : problem}
+        problem={problem}
         saving={saving}
         onSave={(body) => save(body, base.etag)}
         notice={(mine) =>
@@ -91,26 +92,6 @@ function OneZone({ resource }: { resource: Resource<Zone> & { data: Zone } }) {
       {asking && <DeleteZone zone={zone} onClose={() => setAsking(false)} />}
     </>
   );
-}
-
-/** Sends something once at a time, and keeps what went wrong. */
-function useSaving() {
-  const [saving, setSaving] = useState(false);
-  const [problem, setProblem] = useState<Problem | undefined>();
-  const run = async (save: () => Promise<void>, onConflict: () => void): Promise<void> => {
-    setSaving(true);
-    setProblem(undefined);
-    try {
-      await save();
-    } catch (failure) {
-      if (!(failure instanceof Problem)) throw failure;
-      setProblem(failure);
-      if (failure.kind === 'precondition-failed') onConflict();
-    } finally {
-      setSaving(false);
-    }
-  };
-  return { saving, problem, run };
 }
 
 /** Which rules look into it: it cannot go before they do. */
