@@ -40,6 +40,7 @@ function loaded<Module>(load: () => Promise<Module>): (name: keyof Module) => Co
 }
 
 const zones = loaded(() => import('../features/zones/views'));
+const channels = loaded(() => import('../features/channels/views'));
 const rules = loaded(() => import('../features/rules/views'));
 
 export const kViews: readonly View[] = [
@@ -58,6 +59,16 @@ export const kViews: readonly View[] = [
   view('/rules', 'Rules', rules('RulesView'), { icon: 'rule' }),
   view('/rules/new', 'New rule', rules('NewRuleView')),
   view('/rules/:id', 'Rule', rules('RuleView')),
+  view('/channels', 'Channels', channels('ChannelsView'), { icon: 'channel' }),
+  view('/channels/new', 'New channel', channels('NewChannelView')),
+  view('/channels/:id', 'Channel', channels('ChannelView')),
+  view('/deliveries', 'Deliveries', channels('DeliveriesView'), { icon: 'delivery' }),
+  view(
+    '/storage',
+    'Storage',
+    lazy(() => import('../features/storage/storage_view').then((module) => module.StorageView)),
+    { icon: 'storage' },
+  ),
 ];
 
 /** The view that a path shows, with what its placeholders stand for. */

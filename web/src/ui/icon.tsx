@@ -12,6 +12,7 @@ const kPaths = {
   baseline: 'M4 19h16M4 15l5-5 4 3 7-8',
   silence: 'M6 9a6 6 0 0 1 9-5M18 9c0 5 2 7 2 7H8M6 9c0 5-2 7-2 7M10 20a2 2 0 0 0 4 0M3 3l18 18',
   delivery: 'M3 11 21 3l-7 18-3-7zM11 14 21 3',
+  channel: 'M4 10v4h4l6 4V6L8 10zM17 9a4 4 0 0 1 0 6M19.5 6.5a8 8 0 0 1 0 11',
   storage: 'M4 6c0-4 16-4 16 0v12c0 4-16 4-16 0zM4 6c0 4 16 4 16 0M4 12c0 4 16 4 16 0',
   menu: 'M4 6h16M4 12h16M4 18h16',
   close: 'M5 5l14 14M19 5 5 19',

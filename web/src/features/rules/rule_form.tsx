@@ -98,7 +98,7 @@ export function RuleForm(props: RuleFormProps) {
         error={error}
         onSchedule={(schedule) => set({ schedule })}
       />
-      <fieldset class="rule-part">
+      <fieldset class="form-part">
         <legend>How it acts</legend>
         <CheckField label="In force" checked={draft.enabled} onChecked={(enabled) => set({ enabled })} />
         <CheckField
@@ -120,7 +120,7 @@ export function RuleForm(props: RuleFormProps) {
 
 function KindsAndSize({ draft, set, error }: PartProps) {
   return (
-    <fieldset class="rule-part">
+    <fieldset class="form-part">
       <legend>What</legend>
       <div class="actions">
         <CheckField
@@ -171,7 +171,7 @@ function KindsAndSize({ draft, set, error }: PartProps) {
 
 function Lasting({ draft, set, error }: PartProps) {
   return (
-    <fieldset class="rule-part">
+    <fieldset class="form-part">
       <legend>How long</legend>
       <p class="field-hint">Only scans that could see the place count. What only passes by is not told.</p>
       <div class="field-row">

@@ -15,7 +15,7 @@ export function ScheduleField({
   onSchedule: (schedule: readonly WindowDraft[]) => void;
 }) {
   return (
-    <fieldset class="rule-part">
+    <fieldset class="form-part">
       <legend>Hours</legend>
       <p class="field-hint">
         {schedule.length === 0
