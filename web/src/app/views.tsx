@@ -33,6 +33,16 @@ const view = (pattern: string, title: string, component: ComponentType<never>, m
   ...(menu ? { menu } : {}),
 });
 
+/** A view of a module that is loaded when the first of its views is shown. */
+function loaded<Module>(load: () => Promise<Module>): (name: keyof Module) => ComponentType<never> {
+  return (name) =>
+    lazy<ViewProps>(async () => (await load())[name] as ComponentType<ViewProps>) as ComponentType<never>;
+}
+
+const zones = loaded(() => import('../features/zones/views'));
+const channels = loaded(() => import('../features/channels/views'));
+const rules = loaded(() => import('../features/rules/views'));
+
 export const kViews: readonly View[] = [
   view('/', 'Overview', OverviewView, { icon: 'overview' }),
   view('/alerts', 'Alerts', AlertsView, { icon: 'alert' }),
@@ -76,6 +86,22 @@ export const kViews: readonly View[] = [
   view('/sensors/:name', 'Sensor', SensorView),
   view('/baselines', 'Baselines', BaselinesView, { icon: 'baseline' }),
   view('/silences', 'Silences', SilencesView, { icon: 'silence' }),
+  view('/zones', 'Zones', zones('ZonesView'), { icon: 'zone' }),
+  view('/zones/new', 'New zone', zones('NewZoneView')),
+  view('/zones/:id', 'Zone', zones('ZoneView')),
+  view('/rules', 'Rules', rules('RulesView'), { icon: 'rule' }),
+  view('/rules/new', 'New rule', rules('NewRuleView')),
+  view('/rules/:id', 'Rule', rules('RuleView')),
+  view('/channels', 'Channels', channels('ChannelsView'), { icon: 'channel' }),
+  view('/channels/new', 'New channel', channels('NewChannelView')),
+  view('/channels/:id', 'Channel', channels('ChannelView')),
+  view('/deliveries', 'Deliveries', channels('DeliveriesView'), { icon: 'delivery' }),
+  view(
+    '/storage',
+    'Storage',
+    lazy(() => import('../features/storage/storage_view').then((module) => module.StorageView)),
+    { icon: 'storage' },
+  ),
 ];
 
 /** The view that a path shows, with what its placeholders stand for. */

@@ -13,6 +13,7 @@ const kPaths = {
   baseline: 'M4 19h16M4 15l5-5 4 3 7-8',
   silence: 'M6 9a6 6 0 0 1 9-5M18 9c0 5 2 7 2 7H8M6 9c0 5-2 7-2 7M10 20a2 2 0 0 0 4 0M3 3l18 18',
   delivery: 'M3 11 21 3l-7 18-3-7zM11 14 21 3',
+  channel: 'M4 10v4h4l6 4V6L8 10zM17 9a4 4 0 0 1 0 6M19.5 6.5a8 8 0 0 1 0 11',
   storage: 'M4 6c0-4 16-4 16 0v12c0 4-16 4-16 0zM4 6c0 4 16 4 16 0M4 12c0 4 16 4 16 0',
   menu: 'M4 6h16M4 12h16M4 18h16',
   close: 'M5 5l14 14M19 5 5 19',
@@ -28,6 +29,7 @@ const kPaths = {
   upload: 'M12 16V4M7 9l5-5 5 5M4 16v4h16v-4',
   next: 'M9 5l7 7-7 7',
   back: 'M15 5l-7 7 7 7',
+  whole: 'M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5',
   live: 'M5 12a7 7 0 0 1 14 0M8.5 13a3.5 3.5 0 0 1 7 0M12 15.5v5',
 } as const;
 
