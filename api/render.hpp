@@ -43,6 +43,7 @@ Json render(const Snapshot& snapshot, const ComparisonRecord& comparison);  ///<
 Json render(const Snapshot& snapshot, const ChangeRecord& change);
 Json render(const ComparisonCandidate& candidate);
 Json render(const Reference& reference);
+Json render(const CompareParameters& parameters);
 Json render(const Snapshot& snapshot, const ZoneRecord& zone);
 Json render(const ZoneCoverage& coverage);
 Json render(const Snapshot& snapshot, const RuleRecord& rule);

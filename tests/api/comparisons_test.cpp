@@ -62,6 +62,20 @@ TEST_CASE("what appears before the wall is added, what goes away is removed") {
   CHECK_EQ(vanished["changes"], 1);
 }
 
+TEST_CASE("what a comparison takes when it is not told can be read before") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const json scan = api.upload(0);
+  for (const std::string grouping : {"consensus", "union"}) {
+    const json defaults = api.get("/api/v1/sites/yard/parameters?grouping=" + grouping).json();
+    const json asked = {{"scan", scan["id"]}, {"parameters", {{"grouping", grouping}}}};
+    CHECK_EQ(api.post("/api/v1/comparisons", asked).json()["parameters"], defaults);
+  }
+  CHECK_EQ(api.get("/api/v1/sites/yard/parameters").json()["grouping"], "consensus");
+  CHECK_NE(api.get("/api/v1/sites/yard/parameters?grouping=vote").complaint_about("grouping"), "");
+  CHECK_EQ(api.get("/api/v1/sites/hall/parameters").status, 404);
+}
+
 TEST_CASE("the points of a comparison have their classes, those of the priors too") {
   ApiFixture api;
   api.make_site_and_sensor();

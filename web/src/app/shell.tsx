@@ -9,9 +9,10 @@ import { navigate, store, useKeys, useResource, useSelect } from './app';
 import { kOpenAlerts } from './alert_count';
 import icon from './icon.svg';
 import { LiveIndicator } from './live_indicator';
+import { kMenu } from './menu';
 import { OperatorButton } from './operator';
 import { type Theme } from './settings';
-import { kViews, type View, viewAt } from './views';
+import { type View, viewAt } from './views';
 
 export function Shell() {
   const path = useSelect((state) => state.location.path);
@@ -21,12 +22,13 @@ export function Shell() {
   useFocusOnNewView(path);
   useTitle(view);
   useEffect(() => setMenuOpen(false), [path]);
-  const menu = kViews.filter((candidate) => candidate.menu);
   useKeys([
     { key: '?', does: 'show these keys', run: () => setHelpOpen(true) },
-    ...menu.flatMap((entry, index) =>
-      index < 9 ? [{ key: String(index + 1), does: `go to ${entry.title}`, run: () => navigate(entry.pattern) }] : [],
-    ),
+    ...kMenu
+      .flatMap(({ entries }) => entries)
+      .flatMap((entry, index) =>
+        index < 9 ? [{ key: String(index + 1), does: `go to ${entry.title}`, run: () => navigate(entry.pattern) }] : [],
+      ),
   ]);
   const Component = view?.component;
   return (
@@ -57,7 +59,7 @@ export function Shell() {
             <Icon name="help" />
           </button>
         </header>
-        <Menu entries={menu} path={path} open={menuOpen} />
+        <Menu path={path} open={menuOpen} />
         <main id="content" tabIndex={-1}>
           {Component ? (
             <Component {...values} />
@@ -96,29 +98,41 @@ function useTitle(view: View | undefined): void {
   }, [open, view]);
 }
 
-function Menu({ entries, path, open }: { entries: readonly View[]; path: string; open: boolean }) {
-  const alerts = useOpenAlerts();
-  const isHere = (entry: View): boolean =>
-    entry.pattern === '/' ? path === '/' : path === entry.pattern || path.startsWith(`${entry.pattern}/`);
+function Menu({ path, open }: { path: string; open: boolean }) {
   return (
     <nav id="menu" class={open ? 'menu menu-open' : 'menu'} aria-label="Views">
-      <ul>
-        {entries.map((entry) => (
-          <li key={entry.pattern}>
-            <a href={entry.pattern} aria-current={isHere(entry) ? 'page' : undefined}>
-              <Icon name={entry.menu?.icon ?? 'next'} />
-              {entry.title}
-              {entry.pattern === '/alerts' && alerts !== '' && (
-                <span class="count" title={`${alerts} open`}>
-                  {alerts}
-                  <span class="visually-hidden"> open</span>
-                </span>
-              )}
-            </a>
-          </li>
+      <div class="menu-groups">
+        {kMenu.map(({ title, entries }) => (
+          <section key={title} class="menu-group" aria-label={title}>
+            <p aria-hidden="true">{title}</p>
+            <ul>
+              {entries.map((entry) => (
+                <MenuEntry key={entry.pattern} entry={entry} path={path} />
+              ))}
+            </ul>
+          </section>
         ))}
-      </ul>
+      </div>
     </nav>
+  );
+}
+
+function MenuEntry({ entry, path }: { entry: View; path: string }) {
+  const alerts = useOpenAlerts();
+  const isHere = entry.pattern === '/' ? path === '/' : path === entry.pattern || path.startsWith(`${entry.pattern}/`);
+  return (
+    <li>
+      <a href={entry.pattern} aria-current={isHere ? 'page' : undefined}>
+        <Icon name={entry.menu?.icon ?? 'next'} />
+        {entry.title}
+        {entry.pattern === '/alerts' && alerts !== '' && (
+          <span class="count" title={`${alerts} open`}>
+            {alerts}
+            <span class="visually-hidden"> open</span>
+          </span>
+        )}
+      </a>
+    </li>
   );
 }
 

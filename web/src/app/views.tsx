@@ -14,6 +14,7 @@ import { SensorView } from '../features/sensors/sensor_view';
 import { SensorsView } from '../features/sensors/sensors_view';
 import { SilencesView } from '../features/silences/silences_view';
 import { type IconName } from '../ui/icon';
+import { lazy } from './lazy';
 import { matchPath } from './router';
 
 /** What the placeholders of the view's pattern stand for: `/alerts/:id` gives `{id}`. */
@@ -34,19 +35,53 @@ const view = (pattern: string, title: string, component: ComponentType<never>, m
   ...(menu ? { menu } : {}),
 });
 
+/** A view of a module that is loaded when the first of its views is shown. */
+function loaded<Module>(load: () => Promise<Module>): (name: keyof Module) => ComponentType<never> {
+  return (name) =>
+    lazy<ViewProps>(async () => (await load())[name] as ComponentType<ViewProps>) as ComponentType<never>;
+}
+
+const zones = loaded(() => import('../features/zones/views'));
+const channels = loaded(() => import('../features/channels/views'));
+const rules = loaded(() => import('../features/rules/views'));
+const history = loaded(() => import('../features/history/history_view'));
+const tracks = loaded(() => import('../features/tracks/tracks_view'));
+const track = loaded(() => import('../features/tracks/track_view'));
+const comparisons = loaded(() => import('../features/comparisons/comparisons_view'));
+const comparison = loaded(() => import('../features/comparisons/comparison_view'));
+const compare = loaded(() => import('../features/comparisons/compare_view'));
+const storage = loaded(() => import('../features/storage/storage_view'));
+
 export const kViews: readonly View[] = [
   view('/', 'Overview', OverviewView, { icon: 'overview' }),
   view('/alerts', 'Alerts', AlertsView, { icon: 'alert' }),
   view('/alerts/:id', 'Alert', AlertsView),
+  view('/history', 'History', history('HistoryView'), { icon: 'history' }),
+  view('/tracks', 'Tracks', tracks('TracksView'), { icon: 'change' }),
+  view('/tracks/:id', 'Track', track('TrackView')),
   view('/scans', 'Scans', ScansView, { icon: 'scan' }),
   view('/scans/:id', 'Scan', ScanView),
   view('/scans/:id/3d', 'Scan in 3D', ScanSceneView),
   view('/comparisons/:id/3d', 'Comparison in 3D', ComparisonSceneView),
   view('/changes/:id', 'Change', ChangeView),
+  view('/comparisons', 'Comparisons', comparisons('ComparisonsView'), { icon: 'compare' }),
+  view('/comparisons/:id', 'Comparison', comparison('ComparisonView')),
+  view('/compare', 'Compare by hand', compare('CompareView')),
   view('/sensors', 'Sensors', SensorsView, { icon: 'sensor' }),
   view('/sensors/:name', 'Sensor', SensorView),
   view('/baselines', 'Baselines', BaselinesView, { icon: 'baseline' }),
   view('/silences', 'Silences', SilencesView, { icon: 'silence' }),
+  view('/zones', 'Zones', zones('ZonesView'), { icon: 'zone' }),
+  view('/zones/new', 'New zone', zones('NewZoneView')),
+  view('/zones/:id', 'Zone', zones('ZoneView')),
+  view('/rules', 'Rules', rules('RulesView'), { icon: 'rule' }),
+  view('/rules/new', 'New rule', rules('NewRuleView')),
+  view('/rules/:id', 'Rule', rules('RuleView')),
+  view('/channels', 'Channels', channels('ChannelsView'), { icon: 'channel' }),
+  view('/channels/new', 'New channel', channels('NewChannelView')),
+  view('/channels/:id', 'Channel', channels('ChannelView')),
+  view('/deliveries', 'Deliveries', channels('DeliveriesView'), { icon: 'delivery' }),
+  view('/storage', 'Storage', storage('StorageView'), { icon: 'storage' }),
 ];
 
 /** The view that a path shows, with what its placeholders stand for. */

@@ -6,7 +6,7 @@ const numbers = new Map<string, Intl.NumberFormat>();
 function numberFormat(options: Intl.NumberFormatOptions): Intl.NumberFormat {
   const key = JSON.stringify(options);
   let format = numbers.get(key);
-  if (!format) numbers.set(key, (format = new Intl.NumberFormat('en-GB', options)));
+  if (!format) numbers.set(key, (format = new Intl.NumberFormat('en-GB', { signDisplay: 'negative', ...options })));
   return format;
 }
 
@@ -19,6 +19,10 @@ export const counted = (value: number, one: string, many = `${one}s`): string =>
 /** "1.25 m", "0.031 m". */
 export const metres = (value: number, digits = 2): string =>
   `${numberFormat({ minimumFractionDigits: digits, maximumFractionDigits: digits }).format(value)}\u00a0m`;
+
+/** "24.0 m²", "1,250 m²". */
+export const squareMetres = (value: number): string =>
+  `${numberFormat(value < 100 ? { minimumFractionDigits: 1, maximumFractionDigits: 1 } : { maximumFractionDigits: 0 }).format(value)}\u00a0m²`;
 
 /** "0.42 × 0.31 × 0.55 m". */
 export const sizeMetres = (size: readonly number[]): string =>

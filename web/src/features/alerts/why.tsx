@@ -4,11 +4,11 @@ import { type Schema } from '../../lib/api';
 import { count, counted, duration, percent, placeMetres, sizeMetres, volume } from '../../lib/format';
 import { KindBadge } from '../../ui/badges';
 import { Icon } from '../../ui/icon';
+import { SightStrip } from '../../ui/sight_strip';
 import { Time } from '../../ui/time';
 import { ViewLink } from '../../ui/view_link';
 import { AlertPicture } from './alert_picture';
 import { ruleInWords } from './rule_words';
-import { SightStrip } from './sight_strip';
 
 type Reason = Schema<'AlertReason'>;
 

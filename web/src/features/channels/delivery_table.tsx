@@ -1,0 +1,126 @@
+import { useEffect } from 'preact/hooks';
+import { loader, showProblem, showToast, useResource } from '../../app/app';
+import { withOperator } from '../../app/operator';
+import { address, type Schema, send } from '../../lib/api';
+import { count } from '../../lib/format';
+import { Problem } from '../../lib/problem';
+import { StateBadge } from '../../ui/badges';
+import { type Column, DataTable } from '../../ui/data_table';
+import { EmptyState } from '../../ui/states';
+import { Time } from '../../ui/time';
+
+type Delivery = Schema<'Delivery'>;
+
+const kTones = { pending: 'busy', sending: 'busy', delivered: 'good', failed: 'bad', dropped: 'bad' } as const;
+/** No event tells how a message fares. */
+const kAskEveryMs = 5_000;
+
+async function retry(id: number, by: string): Promise<void> {
+  try {
+    await send('post', '/api/v1/deliveries/{id}/retry', { path: { id }, body: { by } });
+    showToast('good', 'It waits to be sent again.');
+  } catch (failure) {
+    if (!(failure instanceof Problem)) throw failure;
+    showProblem(failure);
+  }
+  loader.invalidate((key) => key.startsWith('/api/v1/deliveries'));
+}
+
+/** What the latest attempt brought: "200 after 12 ms", or why it failed. */
+function Answer({ delivery: { response_code, took_ms, error, next_attempt_at } }: { delivery: Delivery }) {
+  const answer = [
+    response_code === null ? '' : String(response_code),
+    took_ms === null ? '' : `after ${count(took_ms)}\u00a0ms`,
+  ]
+    .filter(Boolean)
+    .join(' ');
+  return (
+    <>
+      {answer}
+      {error !== null && <span class="delivery-error">{error}</span>}
+      {next_attempt_at !== null && (
+        <span class="muted">
+          next try at <Time at={next_attempt_at} site={undefined} />
+        </span>
+      )}
+    </>
+  );
+}
+
+const kColumns: readonly Column<Delivery>[] = [
+  { head: 'Since', cell: ({ created_at }) => <Time at={created_at} site={undefined} /> },
+  {
+    head: 'State',
+    cell: ({ state }) => <StateBadge tone={kTones[state]}>{state}</StateBadge>,
+  },
+  {
+    head: 'What',
+    cell: ({ type, alert }) =>
+      alert === null ? (
+        type
+      ) : (
+        <>
+          {type}, <a href={`/alerts/${alert}`}>alert {alert}</a>
+        </>
+      ),
+  },
+  {
+    head: 'To',
+    cell: ({ channel, channel_name }) =>
+      channel_name === null ? (
+        <span class="muted">deleted channel {channel}</span>
+      ) : (
+        <a href={`/channels/${channel}`}>{channel_name}</a>
+      ),
+    essential: false,
+  },
+  { head: 'Attempts', cell: ({ attempts }) => attempts, numeric: true, essential: false },
+  { head: 'Answer', cell: (delivery) => <Answer delivery={delivery} />, essential: false },
+  {
+    head: 'Again',
+    cell: ({ id, state, channel_name }) =>
+      (state === 'failed' || state === 'dropped') &&
+      channel_name !== null && (
+        <button
+          type="button"
+          aria-label={`Send delivery ${id} again`}
+          onClick={() => withOperator((by) => void retry(id, by))}
+        >
+          Send again
+        </button>
+      ),
+  },
+];
+
+export interface DeliveryTableProps {
+  channel?: number | undefined;
+  state?: Schema<'DeliveryState'> | undefined;
+  alert?: number | undefined;
+  cursor?: string | undefined;
+  limit: number;
+  filters?: preact.ComponentChildren;
+}
+
+/** The log of what was sent, or waits; of one channel without its name in each row. */
+export function DeliveryTable({ filters, ...query }: DeliveryTableProps) {
+  const page = useResource(address('/api/v1/deliveries', { query }));
+  useEffect(() => {
+    const timer = setInterval(() => loader.invalidate((key) => key.startsWith('/api/v1/deliveries')), kAskEveryMs);
+    return () => clearInterval(timer);
+  }, []);
+  const isShort = filters === undefined;
+  return (
+    <DataTable
+      caption="deliveries"
+      page={isShort && page.data ? { ...page, data: { ...page.data, next: null } } : page}
+      columns={isShort ? kColumns.filter(({ head }) => head !== 'To' && head !== 'Attempts') : kColumns}
+      rowKey={({ id }) => id}
+      filters={filters}
+      empty={
+        <EmptyState title="Nothing was sent.">
+          <p>Each message stands here from the moment at which it waits.</p>
+        </EmptyState>
+      }
+    />
+  );
+}

@@ -1,0 +1,176 @@
+// Parts of forms: a labelled field with its unit, and what is wrong with it beneath it.
+
+import { type ComponentChildren } from 'preact';
+import { useId } from 'preact/hooks';
+import { type Problem } from '../lib/problem';
+
+export interface FieldProps {
+  label: string;
+  /** What the field is about, in a sentence. */
+  hint?: string | undefined;
+  /** What is wrong with it. */
+  error?: string | undefined;
+}
+
+/** A label over whatever is filled in. `children` gets what ties the input to its messages. */
+export function Field({
+  label,
+  hint,
+  error,
+  children,
+}: FieldProps & { children: (ties: { 'aria-invalid': boolean; 'aria-describedby': string }) => ComponentChildren }) {
+  const about = useId();
+  return (
+    <label class="field">
+      {label}
+      {children({ 'aria-invalid': error !== undefined, 'aria-describedby': about })}
+      <span id={about} class={error === undefined ? 'field-hint' : 'field-bad'}>
+        {error ?? hint}
+      </span>
+    </label>
+  );
+}
+
+interface InputProps extends FieldProps {
+  value: string;
+  onValue: (value: string) => void;
+  disabled?: boolean;
+}
+
+export function TextField({
+  value,
+  onValue,
+  type = 'text',
+  required,
+  placeholder,
+  disabled,
+  first,
+  ...field
+}: InputProps & {
+  type?: 'text' | 'password' | 'url' | 'email' | 'time';
+  required?: boolean;
+  placeholder?: string;
+  /** Gets the focus when its dialog opens. */
+  first?: boolean;
+}) {
+  return (
+    <Field {...field}>
+      {(ties) => (
+        <input
+          {...ties}
+          type={type}
+          required={required}
+          placeholder={placeholder}
+          disabled={disabled}
+          data-first={first}
+          autocomplete={type === 'password' ? 'new-password' : 'off'}
+          value={value}
+          onInput={(event) => onValue(event.currentTarget.value)}
+        />
+      )}
+    </Field>
+  );
+}
+
+/** A number as it is typed: a text, so that what is not finished stays as it is. */
+export function NumberField({
+  value,
+  onValue,
+  unit,
+  min,
+  max,
+  step = 'any',
+  placeholder,
+  disabled,
+  ...field
+}: InputProps & { unit: string; min?: number; max?: number; step?: number | 'any'; placeholder?: string }) {
+  return (
+    <Field {...field}>
+      {(ties) => (
+        <span class="with-unit">
+          <input
+            {...ties}
+            type="number"
+            inputMode="decimal"
+            min={min}
+            max={max}
+            step={step}
+            placeholder={placeholder}
+            disabled={disabled}
+            value={value}
+            onInput={(event) => onValue(event.currentTarget.value)}
+          />
+          {unit}
+        </span>
+      )}
+    </Field>
+  );
+}
+
+export function SelectField<Value extends string>({
+  value,
+  onValue,
+  options,
+  disabled,
+  ...field
+}: FieldProps & {
+  value: Value;
+  onValue: (value: Value) => void;
+  options: readonly { readonly value: Value; readonly words: string }[];
+  disabled?: boolean;
+}) {
+  return (
+    <Field {...field}>
+      {(ties) => (
+        <select
+          {...ties}
+          value={value}
+          disabled={disabled}
+          onChange={(event) => onValue(event.currentTarget.value as Value)}
+        >
+          {options.map((option) => (
+            <option key={option.value} value={option.value}>
+              {option.words}
+            </option>
+          ))}
+        </select>
+      )}
+    </Field>
+  );
+}
+
+export function CheckField({
+  label,
+  checked,
+  onChecked,
+  hint,
+}: {
+  label: string;
+  checked: boolean;
+  onChecked: (checked: boolean) => void;
+  hint?: string;
+}) {
+  return (
+    <label class="check-field">
+      <input type="checkbox" checked={checked} onChange={(event) => onChecked(event.currentTarget.checked)} />
+      <span>
+        {label}
+        {hint && <span class="field-hint"> {hint}</span>}
+      </span>
+    </label>
+  );
+}
+
+/** What the daemon said about a form, as far as no field of the form says it. */
+export function FormProblem({ problem, shown }: { problem: Problem | undefined; shown: readonly string[] }) {
+  if (!problem) return null;
+  const rest = problem.fields.filter(({ field }) => !shown.includes(field));
+  if (problem.fields.length > 0 && rest.length === 0) return null;
+  return (
+    <p class="field-bad" role="alert">
+      {problem.fields.length === 0
+        ? `${problem.title}. ${problem.message}`
+        : rest.map(({ field, message }) => `${field} ${message}`).join('; ')}
+    </p>
+  );
+}
