@@ -60,6 +60,8 @@ describe('drawing an outline', () => {
     it_.tool.drag([1, 3]);
     it_.tool.release();
     expect(it_.now().corners).toEqual([...triangle, [1, 3]]);
+    it_.dispatch({ type: 'undone' });
+    expect(it_.now().corners).toEqual(triangle);
     expect(it_.tool.press([9, 9], 0.2)).toBe(false);
   });
 
