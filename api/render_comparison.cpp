@@ -18,22 +18,6 @@ struct RenderReference {
   }
 };
 
-Json render_parameters(const CompareParameters& parameters) {
-  return {{"grouping", to_string(parameters.grouping)},
-          {"angle_deg", parameters.angle_rad ? Json(deg_of_radians(*parameters.angle_rad)) : Json(nullptr)},
-          {"range_m", parameters.range_m},
-          {"clustering", parameters.clustering},
-          {"support_distance_m", parameters.support_distance_m},
-          {"growth_distance_m", parameters.growth_distance_m},
-          {"foliage_distance_m", parameters.foliage_distance_m},
-          {"cluster_distance_m", parameters.cluster_distance_m},
-          {"cluster_min_points", parameters.cluster_min_points},
-          {"min_range_m", parameters.min_range_m},
-          {"max_range_m", parameters.max_range_m},
-          {"contemporary_s", seconds_of(parameters.contemporary_tolerance)},
-          {"align", parameters.align}};
-}
-
 Json render_priors(const std::vector<ComparisonPrior>& priors) {
   Json list = Json::array();
   for (const ComparisonPrior& prior : priors) {
@@ -56,6 +40,22 @@ Json render_counts(const ComparisonRecord& comparison) {
 
 }  // namespace
 
+Json render(const CompareParameters& parameters) {
+  return {{"grouping", to_string(parameters.grouping)},
+          {"angle_deg", parameters.angle_rad ? Json(deg_of_radians(*parameters.angle_rad)) : Json(nullptr)},
+          {"range_m", parameters.range_m},
+          {"clustering", parameters.clustering},
+          {"support_distance_m", parameters.support_distance_m},
+          {"growth_distance_m", parameters.growth_distance_m},
+          {"foliage_distance_m", parameters.foliage_distance_m},
+          {"cluster_distance_m", parameters.cluster_distance_m},
+          {"cluster_min_points", parameters.cluster_min_points},
+          {"min_range_m", parameters.min_range_m},
+          {"max_range_m", parameters.max_range_m},
+          {"contemporary_s", seconds_of(parameters.contemporary_tolerance)},
+          {"align", parameters.align}};
+}
+
 Json render(const Reference& reference) { return std::visit(RenderReference{}, reference); }
 
 Json render(const Snapshot& snapshot, const ComparisonRecord& comparison) {
@@ -65,7 +65,7 @@ Json render(const Snapshot& snapshot, const ComparisonRecord& comparison) {
           {"state", to_string(comparison.state)},
           {"failure", comparison.failure.empty() ? Json(nullptr) : Json(comparison.failure)},
           {"reference", render(comparison.reference)},
-          {"parameters", render_parameters(comparison.parameters)},
+          {"parameters", render(comparison.parameters)},
           {"priors", render_priors(comparison.priors)},
           {"counts", render_counts(comparison)},
           {"testable", comparison.testable},

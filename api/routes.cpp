@@ -20,6 +20,7 @@ constexpr Route kRoutes[] = {
     {"GET", "/api/v1/sites/{name}", endpoints::get_site, "One site"},
     {"PATCH", "/api/v1/sites/{name}", endpoints::edit_site, "Edits a site"},
     {"DELETE", "/api/v1/sites/{name}", endpoints::delete_site, "Deletes a site without sensors"},
+    {"GET", "/api/v1/sites/{name}/parameters", endpoints::get_site_parameters, "What comparisons use when not told"},
 
     {"POST", "/api/v1/sensors", endpoints::create_sensor, "Makes a sensor"},
     {"GET", "/api/v1/sensors", endpoints::list_sensors, "Lists the sensors"},
@@ -70,6 +71,7 @@ constexpr Route kRoutes[] = {
 
     {"GET", "/api/v1/tracks", endpoints::list_tracks, "Lists changes through time"},
     {"GET", "/api/v1/tracks/{id}", endpoints::get_track, "One change through time"},
+    {"GET", "/api/v1/tracks/{id}/changes", endpoints::list_track_changes, "What a track was made of"},
 
     {"GET", "/api/v1/alerts", endpoints::list_alerts, "Lists the alerts"},
     {"GET", "/api/v1/alerts/{id}", endpoints::get_alert, "One alert, with its history and why it was raised"},
@@ -79,6 +81,7 @@ constexpr Route kRoutes[] = {
     {"POST", "/api/v1/alerts/{id}/accept", endpoints::accept_alert, "Makes the change part of what is normal"},
 
     {"GET", "/api/v1/history", endpoints::get_history, "What was at a place through time"},
+    {"GET", "/api/v1/calendar", endpoints::get_calendar, "How much happened at a site, day by day"},
 
     {"GET", "/api/v1/events", endpoints::stream_events, "Everything that happens, as it happens"},
     {"GET", "/api/v1/events/log", endpoints::list_events, "Everything that happened, in order"},

@@ -88,8 +88,10 @@ struct Query {
 std::string conditions(const ChangeFilter& filter) {
   std::string where;
   if (filter.site) where += "c.site = ?1 AND ";
-  if (!filter.comparison) where += filter.watching ? "c.watching = 1 AND " : "c.watching = 0 AND ";
+  const bool all_of_one = filter.comparison || filter.track;
+  if (!all_of_one) where += filter.watching ? "c.watching = 1 AND " : "c.watching = 0 AND ";
   if (filter.comparison) where += "c.comparison = ?2 AND ";
+  if (filter.track) where += "c.track = ?16 AND ";
   if (filter.kind) where += "c.kind = ?3 AND ";
   if (filter.min_volume_m3) where += "c.volume_m3 >= ?4 AND ";
   if (filter.box_m) {
@@ -124,6 +126,7 @@ bool has_few_hits(const Snapshot& snapshot, const ChangeFilter& filter) {
 
 std::string tables(const Snapshot& snapshot, const ChangeFilter& filter) {
   if (filter.comparison) return "changes AS c INDEXED BY changes_by_comparison WHERE ";
+  if (filter.track) return "changes AS c INDEXED BY changes_by_track WHERE ";
   if (filter.box_m && has_few_hits(snapshot, filter)) {
     return "change_bounds AS b CROSS JOIN changes AS c ON c.id = b.id WHERE " + kInBox + "AND ";
   }
@@ -160,6 +163,7 @@ Page<ChangeRecord> list_changes(const Snapshot& snapshot, const ChangeFilter& fi
           order(filter) + " LIMIT ?15");
   bind_filter(rows, filter);
   rows.bind(span.from, span.after[0], span.after[1], span.after[2], rows_to_read(page));
+  if (filter.track) rows.bind(*filter.track);
   std::vector<ChangeRecord> changes;
   while (rows.next()) changes.push_back(read_change(rows));
   return make_page(std::move(changes), page, kList, key_of);
@@ -170,9 +174,11 @@ void set_track(Transaction& transaction, ChangeId id, TrackId track) {
 }
 
 std::vector<ChangeRecord> changes_of_track(const Snapshot& snapshot, TrackId track, ScanId scan) {
-  Statement rows(database_of(snapshot), "SELECT " + kColumns +
-                                            " FROM changes AS c INDEXED BY changes_by_track WHERE c.track = ? AND "
-                                            "c.scan = ? AND c.watching = 1 ORDER BY c.id");
+  Statement rows(database_of(snapshot),
+                 "SELECT " + kColumns +
+                     " FROM changes AS c INDEXED BY changes_by_track WHERE c.track = ?1 AND "
+                     "c.captured_at = (SELECT captured_at FROM scans WHERE id = ?2) AND c.scan = ?2 "
+                     "AND c.watching = 1 ORDER BY c.comparison, c.place");
   rows.bind(track, scan);
   std::vector<ChangeRecord> changes;
   while (rows.next()) changes.push_back(read_change(rows));

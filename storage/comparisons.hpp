@@ -155,11 +155,13 @@ void requeue_job(Transaction& transaction, const Job& job);
 struct ChangeFilter {
   std::optional<SiteId> site;
   std::optional<ComparisonId> comparison;
+  std::optional<TrackId> track;
   std::optional<ChangeKind> kind;
   std::optional<Time> from, to;
   std::optional<Eigen::AlignedBox3d> box_m;  ///< local; needs `site`; changes whose bounds intersect it (R*Tree)
   std::optional<double> min_volume_m3;
   bool watching = false;  ///< what lasts, by the watching comparisons; else all others. Ignored with `comparison`
+                          ///< and `track`
 };
 /// Newest capture first, then by place in the comparison.
 Page<ChangeRecord> list_changes(const Snapshot& snapshot, const ChangeFilter& filter, const PageRequest& page);

@@ -175,6 +175,13 @@ CREATE INDEX anchors_by_vantage ON scans (vantage, captured_at)
   WHERE registration_state = 'none' AND registration_uncertainty_m IS NOT NULL;
 )sql";
 
+/// What a track was made of by time, and what was told on a day.
+constexpr std::string_view kMetadata6 = R"sql(
+DROP INDEX changes_by_track;
+CREATE INDEX changes_by_track ON changes (track, captured_at DESC, comparison, place) WHERE track IS NOT NULL;
+CREATE INDEX alerts_by_opening ON alerts (site, opened_at);
+)sql";
+
 // A chunk's key is its payload's key times 2^20 plus its place: all chunks of a payload lie together, in order. The
 // bounds stand before the data, so that they are read without it; they are empty where no point has a direction.
 constexpr std::string_view kPayload1 = R"sql(
@@ -209,7 +216,7 @@ CREATE INDEX chunk_bounds ON chunks (id, azimuth_min_rad, azimuth_max_rad, eleva
   range_min_m, range_max_m) WHERE azimuth_min_rad IS NOT NULL;
 )sql";
 
-constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3, kMetadata4, kMetadata5};
+constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3, kMetadata4, kMetadata5, kMetadata6};
 constexpr std::array kPayloadSteps{kPayload1, kPayload2};
 
 }  // namespace

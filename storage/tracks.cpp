@@ -75,11 +75,20 @@ std::vector<TrackRecord> all_of(Statement& rows) {
   return tracks;
 }
 
-std::string where(const TrackFilter& filter) {
+std::string index_of(const TrackFilter& filter) {
   if (filter.site && filter.state) return "INDEXED BY tracks_by_site_and_state WHERE site = ? AND state = ? AND ";
   if (filter.site) return "INDEXED BY tracks_by_site WHERE site = ? AND ";
   if (filter.state) return "INDEXED BY tracks_by_state WHERE state = ? AND ";
   return "WHERE ";
+}
+
+/// The index has the tracks in the order of the list; the rest is asked of each.
+std::string where(const TrackFilter& filter) {
+  std::string where = index_of(filter);
+  if (filter.kind) where += "kind = ? AND ";
+  if (filter.from) where += "last_seen_at >= ? AND ";
+  if (filter.to) where += "first_seen_at < ? AND ";
+  return where;
 }
 
 }  // namespace
@@ -152,6 +161,9 @@ Page<TrackRecord> list_tracks(const Snapshot& snapshot, const TrackFilter& filte
   Statement rows(database_of(snapshot), kSelect + where(filter) + "id < ? ORDER BY id DESC LIMIT ?");
   if (filter.site) rows.bind(*filter.site);
   if (filter.state) rows.bind(to_string(*filter.state));
+  if (filter.kind) rows.bind(to_string(*filter.kind));
+  if (filter.from) rows.bind(*filter.from);
+  if (filter.to) rows.bind(*filter.to);
   rows.bind(before, rows_to_read(page));
   return make_page(all_of(rows), page, kList, [](const TrackRecord& t) { return std::array{t.track.id.value}; });
 }

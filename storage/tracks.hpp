@@ -59,6 +59,8 @@ std::vector<TrackRecord> tracks_begun(const Snapshot& snapshot, SiteId site, Tim
 struct TrackFilter {
   std::optional<SiteId> site;
   std::optional<TrackState> state;
+  std::optional<ChangeKind> kind;
+  std::optional<Time> from, to;  ///< seen last at `from` or later, and first before `to`
 };
 /// Newest first.
 Page<TrackRecord> list_tracks(const Snapshot& snapshot, const TrackFilter& filter, const PageRequest& page);

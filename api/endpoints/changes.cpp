@@ -8,12 +8,6 @@
 namespace raywatch::endpoints {
 namespace {
 
-ChangeKind parse_kind(const std::string& name) {
-  for (const auto kind : {ChangeKind::added, ChangeKind::removed, ChangeKind::discrepancy})
-    if (to_string(kind) == name) return kind;
-  throw InvalidInput("must be added, removed or discrepancy");
-}
-
 /// Which comparisons' changes are listed: what just happened, or what lasts.
 bool parse_lasting(const std::string& name) {
   if (name == "previous") return false;
@@ -21,7 +15,7 @@ bool parse_lasting(const std::string& name) {
   throw InvalidInput("must be previous or baseline");
 }
 
-Json list(const Snapshot& snapshot, const ChangeFilter& filter, const PageRequest& page) {
+JsonText list(const Snapshot& snapshot, const ChangeFilter& filter, const PageRequest& page) {
   return render_page(raywatch::list_changes(snapshot, filter, page),
                      [&](const ChangeRecord& change) { return render(snapshot, change); });
 }
@@ -31,7 +25,7 @@ Json list(const Snapshot& snapshot, const ChangeFilter& filter, const PageReques
 HttpAnswer list_changes(Call& call) {
   ChangeFilter filter;
   const auto site_name = call.query.text("site");
-  filter.kind = call.query.parsed("kind", parse_kind);
+  filter.kind = call.query.parsed("kind", parse_change_kind);
   filter.watching = call.query.parsed("reference", parse_lasting).value_or(false);
   filter.from = call.query.time("from");
   filter.to = call.query.time("to");

@@ -7,6 +7,7 @@
 #include "api/json_body.hpp"
 #include "api/lookup.hpp"
 #include "api/render.hpp"
+#include "core/profile.hpp"
 
 namespace raywatch::endpoints {
 namespace {
@@ -52,6 +53,14 @@ HttpAnswer create_comparison(Call& call) {
   HttpAnswer answer = json_answer(json, 202);
   answer.set_header("Location", "/api/v1/comparisons/" + std::to_string(comparison.id.value));
   return answer;
+}
+
+HttpAnswer get_site_parameters(Call& call) {
+  const Grouping grouping = call.query.parsed("grouping", parse_grouping).value_or(Grouping::consensus);
+  call.query.finish();
+  const Site site =
+      call.services.store.read([&](const Snapshot& snapshot) { return site_named(snapshot, call.path[0]); });
+  return json_answer(render(default_parameters(site.profile, grouping)));
 }
 
 HttpAnswer list_comparisons(Call& call) {

@@ -20,6 +20,7 @@ HttpAnswer list_sites(Call& call);
 HttpAnswer get_site(Call& call);
 HttpAnswer edit_site(Call& call);
 HttpAnswer delete_site(Call& call);
+HttpAnswer get_site_parameters(Call& call);
 
 HttpAnswer create_sensor(Call& call);
 HttpAnswer list_sensors(Call& call);
@@ -67,6 +68,7 @@ HttpAnswer delete_silence(Call& call);
 
 HttpAnswer list_tracks(Call& call);
 HttpAnswer get_track(Call& call);
+HttpAnswer list_track_changes(Call& call);
 
 HttpAnswer list_alerts(Call& call);
 HttpAnswer get_alert(Call& call);
@@ -79,6 +81,7 @@ HttpAnswer list_baselines(Call& call);
 HttpAnswer accept_baseline(Call& call);
 
 HttpAnswer get_history(Call& call);
+HttpAnswer get_calendar(Call& call);
 
 HttpAnswer stream_events(Call& call);
 HttpAnswer list_events(Call& call);

@@ -11,6 +11,9 @@ HttpAnswer list_tracks(Call& call) {
   const auto site_name = call.query.text("site");
   TrackFilter filter;
   filter.state = call.query.parsed("state", parse_track_state);
+  filter.kind = call.query.parsed("kind", parse_change_kind);
+  filter.from = call.query.time("from");
+  filter.to = call.query.time("to");
   const PageRequest page = call.query.page();
   call.query.finish();
   return json_answer(call.services.store.read([&](const Snapshot& snapshot) {
@@ -28,7 +31,22 @@ HttpAnswer get_track(Call& call) {
     Json observations = Json::array();
     for (const SightRun& run : sight_runs(snapshot, id)) observations.push_back(render(run));
     json["observations"] = std::move(observations);
+    Json alerts = Json::array();
+    for (const AlertRecord& alert : alerts_of(snapshot, id)) alerts.push_back(render(snapshot, alert));
+    json["alerts"] = std::move(alerts);
     return json;
+  }));
+}
+
+HttpAnswer list_track_changes(Call& call) {
+  const PageRequest page = call.query.page();
+  call.query.finish();
+  const auto id = id_in_path<TrackId>(call.path[0]);
+  return json_answer(call.services.store.read([&](const Snapshot& snapshot) {
+    ChangeFilter filter;
+    filter.track = track_with(snapshot, id).track.id;
+    return render_page(raywatch::list_changes(snapshot, filter, page),
+                       [&](const ChangeRecord& change) { return render(snapshot, change); });
   }));
 }
 

@@ -62,6 +62,20 @@ TEST_CASE("what appears before the wall is added, what goes away is removed") {
   CHECK_EQ(vanished["changes"], 1);
 }
 
+TEST_CASE("what a comparison takes when it is not told can be read before") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const json scan = api.upload(0);
+  for (const std::string grouping : {"consensus", "union"}) {
+    const json defaults = api.get("/api/v1/sites/yard/parameters?grouping=" + grouping).json();
+    const json asked = {{"scan", scan["id"]}, {"parameters", {{"grouping", grouping}}}};
+    CHECK_EQ(api.post("/api/v1/comparisons", asked).json()["parameters"], defaults);
+  }
+  CHECK_EQ(api.get("/api/v1/sites/yard/parameters").json()["grouping"], "consensus");
+  CHECK_NE(api.get("/api/v1/sites/yard/parameters?grouping=vote").complaint_about("grouping"), "");
+  CHECK_EQ(api.get("/api/v1/sites/hall/parameters").status, 404);
+}
+
 TEST_CASE("the points of a comparison have their classes, those of the priors too") {
   ApiFixture api;
   api.make_site_and_sensor();
@@ -91,6 +105,10 @@ TEST_CASE("the points of a comparison have their classes, those of the priors to
   while (std::getline(world, line)) CHECK(std::stod(line) == doctest::Approx(95.5));
 
   CHECK_EQ(count_by(api.get(target + "&class=removed,added&voxel_m=5").body, "class").size(), 1);
+  const std::string base = target.substr(0, target.find('?'));
+  const std::string quantised = api.get(base + "?format=q16&class=removed").body;
+  REQUIRE_EQ(quantised.size(), 96 + box_points() * 8);
+  for (std::size_t at = 96 + 6; at < quantised.size(); at += 8) CHECK_EQ(quantised[at], 2);
   const Reply wrong = api.get(target + "&class=removed,gone");
   CHECK_EQ(wrong.status, 422);
   CHECK_NE(wrong.complaint_about("class"), "");

@@ -73,6 +73,55 @@ TEST_CASE("an alert says why it was raised, and each step stands in its history"
   CHECK_EQ(yard.items("/api/v1/alerts").size(), 1);
 }
 
+TEST_CASE("a track is listed by kind and time, with its alerts and what it was made of") {
+  WatchedYard yard;
+  const json alert = yard.alert_of_box();
+  const json tracks = yard.items("/api/v1/tracks?kind=added");
+  REQUIRE_EQ(tracks.size(), 1);
+  CHECK_EQ(yard.items("/api/v1/tracks?kind=removed").size(), 0);
+  CHECK_EQ(yard.items("/api/v1/tracks?to=" + tracks[0]["first_seen_at"].get<std::string>()).size(), 0);
+  CHECK_EQ(yard.items("/api/v1/tracks?from=" + tracks[0]["last_seen_at"].get<std::string>()).size(), 1);
+  CHECK_NE(yard.get("/api/v1/tracks?kind=gone").complaint_about("kind"), "");
+
+  const std::string target = "/api/v1/tracks/" + tracks[0]["id"].dump();
+  const json alerts = yard.get(target).json()["alerts"];
+  REQUIRE_EQ(alerts.size(), 1);
+  CHECK_EQ(alerts[0]["id"], alert["id"]);
+  const json changes = yard.items(target + "/changes");
+  REQUIRE_EQ(changes.size(), 2);
+  CHECK_EQ(changes[0]["id"], tracks[0]["latest_change"]);
+  for (const json& change : changes) CHECK_EQ(change["track"], tracks[0]["id"]);
+  CHECK_EQ(yard.get("/api/v1/tracks/99/changes").status, 404);
+}
+
+TEST_CASE("a calendar counts what happened on each day of the site's time zone") {
+  WatchedYard yard;
+  yard.patch("/api/v1/sites/yard", {{"time_zone", "Europe/Berlin"}});
+  yard.alert_of_box();
+  const json calendar = yard.get("/api/v1/calendar?site=yard&from=2026-03-01T12:00:00Z&to=2026-03-02T12:00:00Z").json();
+  CHECK_EQ(calendar["time_zone"], "Europe/Berlin");
+  REQUIRE_EQ(calendar["days"].size(), 2);
+  const json& first = calendar["days"][0];
+  CHECK_EQ(first["date"], "2026-03-01");
+  CHECK_EQ(first["from"], "2026-02-28T23:00:00Z");
+  CHECK_EQ(first["scans"], 5);
+  CHECK_EQ(first["tracks"], 1);
+  CHECK_EQ(calendar["days"][1]["from"], first["to"]);
+  CHECK_EQ(calendar["days"][1]["scans"], 0);
+  CHECK_EQ(first["alerts"].get<int>() + calendar["days"][1]["alerts"].get<int>(), 1);
+
+  // The clocks go forward: this day has 23 hours.
+  const json march = yard.get("/api/v1/calendar?site=yard&from=2026-03-29T10:00:00Z&to=2026-03-29T11:00:00Z").json();
+  REQUIRE_EQ(march["days"].size(), 1);
+  CHECK_EQ(march["days"][0]["from"], "2026-03-28T23:00:00Z");
+  CHECK_EQ(march["days"][0]["to"], "2026-03-29T22:00:00Z");
+
+  const std::string range = "/api/v1/calendar?site=yard&from=2026-03-01T12:00:00Z&to=";
+  CHECK_EQ(yard.get(range + "2026-03-01T12:00:00Z").complaint_about("to"), "must be later than 'from'");
+  CHECK_EQ(yard.get(range + "2028-03-01T12:00:00Z").complaint_about("to"), "must be at most 400 days after 'from'");
+  CHECK_EQ(yard.get("/api/v1/calendar?site=yard").complaint_about("from"), "is required");
+}
+
 TEST_CASE("the evidence of a change is its points, what is around them, and the rays that went through its place") {
   WatchedYard yard;
   const json alert = yard.alert_of_box();

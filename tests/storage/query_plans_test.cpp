@@ -5,6 +5,7 @@
 
 #include "storage/alerts.hpp"
 #include "storage/baselines.hpp"
+#include "storage/calendar.hpp"
 #include "storage/deletions.hpp"
 #include "storage/deliveries.hpp"
 #include "storage/events.hpp"
@@ -90,6 +91,8 @@ void watch(const Snapshot& s, SiteId site, SensorId sensor) {
     events_after(s, EventId{}, of, 10);
     for (const std::optional<TrackState> state : {std::optional<TrackState>(), std::optional(TrackState::open)}) {
       list_tracks(s, {.site = of, .state = state}, {});
+      list_tracks(s, {.site = of, .state = state, .kind = ChangeKind::added, .from = at_second(0), .to = at_second(9)},
+                  {});
     }
     for (const std::optional<AlertState> state : {std::optional<AlertState>(), std::optional(AlertState::open)}) {
       list_alerts(s, {.site = of, .state = state}, {});
@@ -107,6 +110,10 @@ void watch(const Snapshot& s, SiteId site, SensorId sensor) {
   find_watched_scan(s, ScanId{1});
   sight_runs(s, TrackId{1});
   changes_of_track(s, TrackId{1}, ScanId{1});
+  ChangeFilter of_track;
+  of_track.track = TrackId{1};
+  list_changes(s, of_track, {});
+  counts_between(s, site, at_second(0), at_second(1));
   alerts_of(s, TrackId{1});
   alert_history(s, AlertId{1});
   standing_alert(s, site, "disk", "disk");

@@ -45,6 +45,29 @@ TEST_CASE_FIXTURE(StoreFixture, "a track comes back as it was put, and as it was
   CHECK(found().ended_scan == ScanId{8});
 }
 
+TEST_CASE_FIXTURE(StoreFixture, "tracks are listed by kind, and by the time in which they were seen") {
+  TrackRecord early = track_of(site.id, 10), late = track_of(site.id, 50);
+  see_still(early.track, at_second(20));
+  early.track.kind = early.track.latest.kind = ChangeKind::added;
+  for (TrackRecord* each : {&early, &late}) {
+    each->track.id = store.write([&](Transaction& t) { return insert_track(t, *each); });
+  }
+  const auto found = [&](const TrackFilter& filter) {
+    std::vector<TrackId> ids;
+    store.read([&](const Snapshot& s) {
+      for (const TrackRecord& each : list_tracks(s, filter, {}).items) ids.push_back(each.track.id);
+    });
+    return ids;
+  };
+  using Ids = std::vector<TrackId>;
+  CHECK(found({}) == Ids{late.track.id, early.track.id});
+  CHECK(found({.kind = ChangeKind::added}) == Ids{early.track.id});
+  CHECK(found({.site = site.id, .state = TrackState::open, .kind = ChangeKind::removed}) == Ids{late.track.id});
+  CHECK(found({.from = at_second(20)}) == Ids{late.track.id, early.track.id});
+  CHECK(found({.from = at_second(21)}) == Ids{late.track.id});
+  CHECK(found({.from = at_second(0), .to = at_second(50)}) == Ids{early.track.id});
+}
+
 TEST_CASE_FIXTURE(StoreFixture, "only what later scans may add to is followed") {
   const auto insert = [&](const TrackRecord& record) {
     return store.write([&](Transaction& t) { return insert_track(t, record); });

@@ -10,8 +10,8 @@ const kApi = '/api/v1/';
 const kTouched: Readonly<Record<string, readonly string[]>> = {
   scan: ['scans', 'vantages', 'sensors', 'candidates'],
   comparison: ['comparisons', 'scans', 'changes', 'zones'],
-  track: ['tracks', 'alerts'],
-  alert: ['alerts'],
+  track: ['tracks', 'alerts', 'calendar'],
+  alert: ['alerts', 'tracks', 'calendar'],
   baseline: ['baselines', 'tracks', 'alerts'],
   zone: ['zones'],
   rule: ['rules'],

@@ -5,6 +5,8 @@
 import { type ComponentType } from 'preact';
 import { AlertsView } from '../features/alerts/alerts_view';
 import { BaselinesView } from '../features/baselines/baselines_view';
+import { ChangeView } from '../features/changes/change_view';
+import { ComparisonSceneView, ScanSceneView } from '../features/changes/scan_scene_view';
 import { OverviewView } from '../features/overview/overview_view';
 import { ScanView } from '../features/scans/scan_view';
 import { ScansView } from '../features/scans/scans_view';
@@ -42,13 +44,29 @@ function loaded<Module>(load: () => Promise<Module>): (name: keyof Module) => Co
 const zones = loaded(() => import('../features/zones/views'));
 const channels = loaded(() => import('../features/channels/views'));
 const rules = loaded(() => import('../features/rules/views'));
+const history = loaded(() => import('../features/history/history_view'));
+const tracks = loaded(() => import('../features/tracks/tracks_view'));
+const track = loaded(() => import('../features/tracks/track_view'));
+const comparisons = loaded(() => import('../features/comparisons/comparisons_view'));
+const comparison = loaded(() => import('../features/comparisons/comparison_view'));
+const compare = loaded(() => import('../features/comparisons/compare_view'));
+const storage = loaded(() => import('../features/storage/storage_view'));
 
 export const kViews: readonly View[] = [
   view('/', 'Overview', OverviewView, { icon: 'overview' }),
   view('/alerts', 'Alerts', AlertsView, { icon: 'alert' }),
   view('/alerts/:id', 'Alert', AlertsView),
+  view('/history', 'History', history('HistoryView'), { icon: 'history' }),
+  view('/tracks', 'Tracks', tracks('TracksView'), { icon: 'change' }),
+  view('/tracks/:id', 'Track', track('TrackView')),
   view('/scans', 'Scans', ScansView, { icon: 'scan' }),
   view('/scans/:id', 'Scan', ScanView),
+  view('/scans/:id/3d', 'Scan in 3D', ScanSceneView),
+  view('/comparisons/:id/3d', 'Comparison in 3D', ComparisonSceneView),
+  view('/changes/:id', 'Change', ChangeView),
+  view('/comparisons', 'Comparisons', comparisons('ComparisonsView'), { icon: 'compare' }),
+  view('/comparisons/:id', 'Comparison', comparison('ComparisonView')),
+  view('/compare', 'Compare by hand', compare('CompareView')),
   view('/sensors', 'Sensors', SensorsView, { icon: 'sensor' }),
   view('/sensors/:name', 'Sensor', SensorView),
   view('/baselines', 'Baselines', BaselinesView, { icon: 'baseline' }),
@@ -63,12 +81,7 @@ export const kViews: readonly View[] = [
   view('/channels/new', 'New channel', channels('NewChannelView')),
   view('/channels/:id', 'Channel', channels('ChannelView')),
   view('/deliveries', 'Deliveries', channels('DeliveriesView'), { icon: 'delivery' }),
-  view(
-    '/storage',
-    'Storage',
-    lazy(() => import('../features/storage/storage_view').then((module) => module.StorageView)),
-    { icon: 'storage' },
-  ),
+  view('/storage', 'Storage', storage('StorageView'), { icon: 'storage' }),
 ];
 
 /** The view that a path shows, with what its placeholders stand for. */

@@ -1,12 +1,15 @@
 import { setQuery, useResource, useSelect } from '../../app/app';
+import { useZone } from '../../app/sites';
 import { address, type Schema } from '../../lib/api';
 import { count, counted, percent } from '../../lib/format';
+import { referenceInWords } from '../../lib/reference';
 import { EmptyState, Loaded } from '../../ui/states';
 import { ViewLink } from '../../ui/view_link';
 import { CandidatesTable } from './candidates_table';
 
 /** What comparisons of a scan found, one at a time, and why its priors were chosen. */
 export function Comparisons({ scan }: { scan: Schema<'Scan'> }) {
+  const zone = useZone(scan.site);
   const asked = useSelect((state) => state.location.query['comparison']);
   const shown = scan.comparisons.find(({ id }) => String(id) === asked) ?? scan.comparisons[0];
   return (
@@ -21,20 +24,17 @@ export function Comparisons({ scan }: { scan: Schema<'Scan'> }) {
               aria-pressed={id === shown?.id}
               onClick={() => setQuery({ comparison: String(id) }, { replace: true })}
             >
-              with {referenceInWords(reference)}
+              with {referenceInWords(reference, zone)}
             </button>
           ))}
+          <a class="button" href={`/compare?scan=${scan.id}`}>
+            Compare by hand …
+          </a>
         </div>
       </header>
       {shown ? <OneComparison id={shown.id} scan={scan.id} /> : <EmptyState title="It was compared with nothing." />}
     </section>
   );
-}
-
-function referenceInWords(reference: Schema<'Reference'>): string {
-  if (reference === 'previous') return 'what was before';
-  if (reference === 'baseline') return 'what is normal';
-  return 'scans' in reference ? `scans ${reference.scans.join(', ')}` : 'a time range';
 }
 
 function OneComparison({ id, scan }: { id: number; scan: number }) {

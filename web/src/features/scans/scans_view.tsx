@@ -1,10 +1,9 @@
 import './scans.css';
-import { setQuery, useResource, useSelect } from '../../app/app';
-import { useSites, useZone } from '../../app/sites';
+import { useResource, useSelect } from '../../app/app';
 import { address, type Schema } from '../../lib/api';
 import { count } from '../../lib/format';
-import { localOf, momentOf } from '../../lib/zone';
 import { type Column, DataTable } from '../../ui/data_table';
+import { SensorFilter, SiteFilter, TimeFilter } from '../../ui/filters';
 import { EmptyState } from '../../ui/states';
 import { Time } from '../../ui/time';
 import { RegistrationBadge, ScanStateBadge } from './badges';
@@ -43,62 +42,19 @@ export function ScansView() {
         columns={kColumns}
         rowKey={(scan) => scan.id}
         searchText={(scan) => `${scan.id} ${scan.sensor} ${scan.site} ${scan.state} ${scan.note} ${scan.sha256}`}
-        filters={<ScanFilters />}
+        filters={
+          <>
+            <SiteFilter />
+            <SensorFilter />
+            <TimeFilter />
+          </>
+        }
         empty={
           <div class="panel">
             <EmptyState title="No scan is like this." />
           </div>
         }
       />
-    </>
-  );
-}
-
-function ScanFilters() {
-  const query = useSelect((state) => state.location.query);
-  const sites = useSites();
-  const sensors = useResource(address('/api/v1/sensors', { query: { limit: 1000 } })).data?.items ?? [];
-  const zone = useZone(query['site'] ?? sites[0]?.name);
-  const set = (name: string, value: string): void =>
-    setQuery({ cursor: undefined, [name]: value === '' ? undefined : value });
-  const choice = (name: 'site' | 'sensor', all: string, names: readonly string[]) => (
-    <select aria-label={name} value={query[name] ?? ''} onChange={(event) => set(name, event.currentTarget.value)}>
-      <option value="">{all}</option>
-      {names.map((each) => (
-        <option key={each} value={each}>
-          {each}
-        </option>
-      ))}
-    </select>
-  );
-  const time = (name: 'from' | 'to', words: string) => (
-    <label class="inline-field">
-      {words}
-      <input
-        type="datetime-local"
-        value={query[name] === undefined ? '' : localOf(new Date(query[name]), zone)}
-        onChange={(event) =>
-          set(name, event.currentTarget.value && momentOf(event.currentTarget.value, zone).toISOString())
-        }
-      />
-    </label>
-  );
-  return (
-    <>
-      {sites.length > 1 &&
-        choice(
-          'site',
-          'all sites',
-          sites.map((site) => site.name),
-        )}
-      {choice(
-        'sensor',
-        'all sensors',
-        sensors.filter((sensor) => !query['site'] || sensor.site === query['site']).map(({ name }) => name),
-      )}
-      {time('from', 'from')}
-      {time('to', 'to')}
-      <span class="muted">{zone}</span>
     </>
   );
 }

@@ -1,8 +1,8 @@
-import { setQuery, useResource, useSelect } from '../../app/app';
-import { useSites } from '../../app/sites';
+import { useResource, useSelect } from '../../app/app';
 import { address, type Schema } from '../../lib/api';
 import { duration, metres, placeMetres } from '../../lib/format';
 import { type Column, DataTable } from '../../ui/data_table';
+import { SiteFilter } from '../../ui/filters';
 import { EmptyState } from '../../ui/states';
 
 type Sensor = Schema<'Sensor'>;
@@ -34,7 +34,6 @@ const kColumns: readonly Column<Sensor>[] = [
 export function SensorsView() {
   const site = useSelect((state) => state.location.query['site']);
   const cursor = useSelect((state) => state.location.query['cursor']);
-  const sites = useSites();
   const page = useResource(address('/api/v1/sensors', { query: { site, cursor, limit: 200 } }));
   return (
     <>
@@ -47,22 +46,7 @@ export function SensorsView() {
         columns={kColumns}
         rowKey={({ name }) => name}
         searchText={({ name, site: at }) => `${name} ${at}`}
-        filters={
-          sites.length > 1 && (
-            <select
-              aria-label="Site"
-              value={site ?? ''}
-              onChange={(event) => setQuery({ cursor: undefined, site: event.currentTarget.value || undefined })}
-            >
-              <option value="">all sites</option>
-              {sites.map(({ name }) => (
-                <option key={name} value={name}>
-                  {name}
-                </option>
-              ))}
-            </select>
-          )
-        }
+        filters={<SiteFilter />}
         empty={
           <div class="panel">
             <EmptyState title="There is no sensor yet.">

@@ -1,9 +1,10 @@
 // What the scans of each vantage showed of a place, run by run: seen, absent, or out of sight. Width is the number of
 // scans; every run says the same in words.
 
-import { type Schema } from '../../lib/api';
-import { counted, dateTime } from '../../lib/format';
-import { useZone } from '../../app/sites';
+import './sight_strip.css';
+import { useZone } from '../app/sites';
+import { type Schema } from '../lib/api';
+import { counted, dateTime } from '../lib/format';
 
 type Observation = Schema<'Observation'>;
 

@@ -1,0 +1,148 @@
+// Any place, any past moment: whether it was free, occupied, or out of sight.
+
+import './history.css';
+import { loader, setQuery, useResource, useSelect } from '../../app/app';
+import { useSites, useZone } from '../../app/sites';
+import { address, type Schema } from '../../lib/api';
+import { placeMetres, sizeMetres } from '../../lib/format';
+import { isPoint, type Place, placeOf, placeQuery } from '../../lib/place';
+import { EmptyState } from '../../ui/states';
+import { Calendar } from './calendar';
+import { Course } from './course';
+import { PlaceForm } from './place_form';
+import { type Range } from './range';
+import { RangeBar } from './range_bar';
+
+/** What the link says about the time; nothing where it says nothing, or no time. */
+function rangeIn(query: Readonly<Record<string, string>>, now_ms: number): Range | undefined {
+  const from_ms = Date.parse(query['from'] ?? '');
+  const to_ms = Date.parse(query['to'] ?? '');
+  if (Number.isNaN(from_ms)) return undefined;
+  return { from_ms, to_ms: Number.isNaN(to_ms) ? Math.max(now_ms, from_ms + 60_000) : to_ms };
+}
+
+export function HistoryView() {
+  const sites = useSites();
+  const query = useSelect((state) => state.location.query);
+  const site = query['site'] ?? sites[0]?.name;
+  return (
+    <>
+      <div class="view-head">
+        <h1>History</h1>
+        <span class="muted">what was at a place through time, from the stored rays</span>
+        {sites.length > 1 && site !== undefined && <SiteChoice sites={sites} site={site} />}
+      </div>
+      {site === undefined ? (
+        <div class="panel">
+          <EmptyState title="There is no site yet.">
+            <p>A place can be asked as soon as scans are stored.</p>
+          </EmptyState>
+        </div>
+      ) : (
+        <OfSite key={site} site={site} />
+      )}
+    </>
+  );
+}
+
+function SiteChoice({ sites, site }: { sites: readonly Schema<'Site'>[]; site: string }) {
+  return (
+    <select
+      aria-label="Site"
+      value={site}
+      onChange={(event) =>
+        setQuery({ site: event.currentTarget.value, point: undefined, box: undefined, interval: undefined })
+      }
+    >
+      {sites.map(({ name }) => (
+        <option key={name} value={name}>
+          {name}
+        </option>
+      ))}
+    </select>
+  );
+}
+
+function OfSite({ site }: { site: string }) {
+  const zone = useZone(site);
+  const query = useSelect((state) => state.location.query);
+  const now_ms = useSelect((state) => state.now_ms);
+  const place = placeOf(query);
+  const { from, to } = query;
+  const asked = place && address('/api/v1/history', { query: { site, ...placeQuery(place), from, to } });
+  const history = useResource(asked);
+  const latest = useResource(address('/api/v1/scans', { query: { site, limit: 1 } })).data?.items[0];
+  const range = rangeIn(query, now_ms);
+  const around_ms = range?.from_ms ?? (latest ? Date.parse(latest.captured_at) : now_ms);
+  const isOld = latest !== undefined && to === undefined && isBehind(history.data, latest.captured_at);
+  const key = JSON.stringify(place);
+  return (
+    <div class="history">
+      <section class="panel" aria-labelledby="place">
+        <header class="panel-head">
+          <h2 id="place">Place</h2>
+          {place && <span class="muted">{placeWords(place)}</span>}
+        </header>
+        <PlaceForm
+          key={key}
+          place={place}
+          onPlace={(chosen) =>
+            setQuery({ site, point: undefined, box: undefined, interval: undefined, ...placeQuery(chosen) })
+          }
+        />
+      </section>
+      <section class="panel" aria-labelledby="when">
+        <header class="panel-head">
+          <h2 id="when">When</h2>
+          <span class="muted">days of {zone}</span>
+        </header>
+        <div class="panel-body">
+          <Calendar site={site} zone={zone} range={range} around_ms={around_ms} />
+        </div>
+      </section>
+      <section class="panel panel-wide" aria-labelledby="course">
+        <header class="panel-head">
+          <h2 id="course">What was there</h2>
+          {isOld && (
+            <button type="button" onClick={() => loader.invalidate((known) => known === asked)}>
+              Newer scans have arrived: ask again
+            </button>
+          )}
+        </header>
+        <RangeBar range={range} zone={zone} around_ms={around_ms} />
+        {place ? (
+          <Course history={history} site={site} place={place} range={range} />
+        ) : query['point'] !== undefined || query['box'] !== undefined ? (
+          <BrokenLink />
+        ) : (
+          <EmptyState title="No place is chosen.">
+            <p>Give its coordinates, or follow a link from an alert, a change or a track.</p>
+          </EmptyState>
+        )}
+      </section>
+    </div>
+  );
+}
+
+const isBehind = (history: Schema<'History'> | undefined, latest: string): boolean => {
+  const last = history?.intervals.at(-1);
+  return last !== undefined && Date.parse(last.to) < Date.parse(latest);
+};
+
+const placeWords = (place: Place): string =>
+  isPoint(place)
+    ? placeMetres(place.min_m)
+    : `${sizeMetres(place.max_m.map((part, axis) => part - (place.min_m[axis] ?? 0)))} at ${placeMetres(
+        place.min_m.map((part, axis) => (part + (place.max_m[axis] ?? 0)) / 2),
+      )}`;
+
+function BrokenLink() {
+  return (
+    <EmptyState title="This link names no place.">
+      <p>
+        It should end in <code>point=x,y,z</code> or <code>box=x0,y0,z0,x1,y1,z1</code>, in metres. Give the coordinates
+        above.
+      </p>
+    </EmptyState>
+  );
+}
