@@ -134,12 +134,12 @@ Eigen::AlignedBox3d extent_of(const EpochScans& epoch) {
   return box_m;
 }
 
-/// Says which scans are not certain of their pose: their volumes have intervals that are too narrow.
-void warn_of_poses(const SurveyEpoch& epoch, const char* name, std::vector<std::string>& warnings) {
-  for (const SurveyedScan& scan : epoch.about) {
+/// Says which scans of the later epoch stand at their reported pose: their volumes have intervals that are too narrow.
+void warn_of_poses(const SurveyEpoch& later, std::vector<std::string>& warnings) {
+  for (const SurveyedScan& scan : later.about) {
     if (scan.uncertainty.position_m > 0.0 || scan.uncertainty.angle_rad > 0.0) continue;
-    warnings.push_back("scan " + std::to_string(scan.scan.value) + " of the " + name +
-                       " epoch has a pose without an uncertainty; it is taken as exact, so that intervals are narrower "
+    warnings.push_back("scan " + std::to_string(scan.scan.value) +
+                       " was not fitted onto earlier ones; its pose is taken as exact, so that intervals are narrower "
                        "than they should be");
   }
 }
@@ -161,8 +161,7 @@ SurveyResult survey_between(const SurveyInput& input) {
   result.program_version = input.program_version;
   result.before = input.before.about;
   result.after = input.after.about;
-  warn_of_poses(input.before, "earlier", result.warnings);
-  warn_of_poses(input.after, "later", result.warnings);
+  warn_of_poses(input.after, result.warnings);
 
   const GridLayout layout = layout_over(area_of(zones), input.definition.cell_m);
   result.before_model = make_elevation_model(input.before.scans, layout, input.definition.elevation);

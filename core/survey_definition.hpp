@@ -33,7 +33,7 @@ struct SurveyReference {
 /// What a night must be registered to; one that is worse is refused.
 struct RegistrationTolerance {
   double residual_m = 0.05;
-  PoseUncertainty uncertainty{.position_m = 0.05, .angle_rad = 0.001};
+  PoseUncertainty uncertainty{.position_m = 0.05, .angle_rad = 0.002};
 };
 
 /// A figure of a survey that has a series, thresholds and a place in tables.

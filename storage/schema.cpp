@@ -3,6 +3,7 @@
 #include "storage/delivery_schema.hpp"
 #include "storage/migrations.hpp"
 #include "storage/retention_schema.hpp"
+#include "storage/survey_schema.hpp"
 #include "storage/watch_schema.hpp"
 
 namespace raywatch {
@@ -209,7 +210,7 @@ CREATE INDEX chunk_bounds ON chunks (id, azimuth_min_rad, azimuth_max_rad, eleva
   range_min_m, range_max_m) WHERE azimuth_min_rad IS NOT NULL;
 )sql";
 
-constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3, kMetadata4, kMetadata5};
+constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3, kMetadata4, kMetadata5, kMetadata6};
 constexpr std::array kPayloadSteps{kPayload1, kPayload2};
 
 }  // namespace
