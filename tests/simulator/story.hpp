@@ -90,5 +90,6 @@ struct YardStory {
 };
 Timeline yard_timeline(const FamilyOptions& options, const YardStory& story);
 Timeline mine_timeline(const FamilyOptions& options);
+Timeline pit_timeline(const FamilyOptions& options);
 
 }  // namespace raywatch::simulator
