@@ -233,9 +233,6 @@ function labelsOf({ boxes, marks }: SceneSpec): Label[] {
 
 function legendOf({ boxes, clouds }: SceneSpec) {
   const kinds = (['added', 'removed', 'discrepancy'] as const).filter((kind) => boxes.some((box) => box.kind === kind));
-  return [
-    ...kinds,
-    'unchanged' as const,
-    ...(clouds.some(({ from }) => from.includes('unseen')) ? (['unseen'] as const) : []),
-  ];
+  const compared = clouds.some(({ from }) => from.includes('unseen'));
+  return compared ? ([...kinds, 'unchanged', 'unseen'] as const) : [];
 }
