@@ -82,7 +82,6 @@ function Scene({ scan, comparison, changes = [], waitsFor }: SceneProps) {
   const spec: SceneSpec = {
     site: scan.site,
     anchor_m: vectorOf(scan.pose.position_m),
-    radius_m: 500,
     clouds: comparison ? comparisonClouds(comparison) : scanCloud(scan.id),
     boxes: changes.map((change) => ({
       key: String(change.id),
