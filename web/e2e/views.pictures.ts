@@ -5,6 +5,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { kYardScans, simulateYard } from './support/build';
 import { expect, signIn, test } from './support/fixtures';
+import { pixelsLike } from './support/picture';
 
 const kPictures = new URL('../pictures/', import.meta.url).pathname;
 
@@ -34,4 +35,11 @@ test('pictures of the main views', async ({ page, daemon }) => {
   await page.setViewportSize({ width: 390, height: 800 });
   await expect(page.getByRole('heading', { name: 'Who saw it' })).toBeVisible();
   await page.screenshot({ path: join(kPictures, 'alert_narrow.png') });
+
+  await page.setViewportSize({ width: 1280, height: 860 });
+  const { items } = await daemon.get<{ items: { id: number }[] }>('/api/v1/changes?site=yard&kind=removed');
+  await page.goto(`${daemon.url}/changes/${items.at(-1)?.id}?rays=1`);
+  await expect.poll(() => pixelsLike(page.locator('.scene'), [255, 122, 31])).toBeGreaterThan(50);
+  await expect(page.getByRole('region', { name: 'Panorama' }).getByRole('application')).toBeVisible();
+  await page.screenshot({ path: join(kPictures, 'change.png') });
 });

@@ -73,7 +73,6 @@ function Picture({ change, comparison, scan }: PictureProps) {
   const spec: SceneSpec = {
     site: change.site,
     anchor_m: vectorOf(change.centroid_m),
-    radius_m: 500,
     clouds: comparisonClouds(comparison),
     boxes: [{ key: String(change.id), box: boxOfChange(change), kind: change.kind }],
     marks: marksOf(scan),

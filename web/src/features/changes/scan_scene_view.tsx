@@ -13,7 +13,7 @@ import { ScanPanorama } from '../panorama/scan_panorama';
 import { LazyStage } from '../scene/lazy_stage';
 import { boxOfChange, scanLooks } from '../scene/looks';
 import { type SceneSpec } from '../scene/scene_spec';
-import { comparisonClouds, marksOf, scanPoints, vectorOf } from '../scene/told';
+import { comparisonClouds, marksOf, scanCloud, vectorOf } from '../scene/told';
 
 type Comparison = Schema<'Comparison'>;
 type Scan = Schema<'Scan'>;
@@ -82,10 +82,7 @@ function Scene({ scan, comparison, changes = [], waitsFor }: SceneProps) {
   const spec: SceneSpec = {
     site: scan.site,
     anchor_m: vectorOf(scan.pose.position_m),
-    radius_m: 500,
-    clouds: comparison
-      ? comparisonClouds(comparison)
-      : [{ from: scanPoints(scan.id), what: 'The scan', side: 'both', important: false }],
+    clouds: comparison ? comparisonClouds(comparison) : scanCloud(scan.id),
     boxes: changes.map((change) => ({
       key: String(change.id),
       box: boxOfChange(change),

@@ -156,6 +156,6 @@ export function project(camera: Camera, viewport: Viewport, place_m: Vector3): {
 
 /** How far the camera must see: from a part of its distance to behind everything. */
 export function depthRange(camera: Camera, radius_m: number): { near: number; far: number } {
-  const far = camera.distance_m + 2 * radius_m;
+  const far = camera.distance_m + radius_m;
   return { near: Math.max(0.02, Math.min(camera.distance_m * 0.02, far / 200)), far };
 }

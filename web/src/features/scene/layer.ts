@@ -5,6 +5,10 @@ import { type Vector3 } from '../../lib/points/quantised';
 import { type Camera, type Viewport } from './camera';
 import { type Pickable } from './picking';
 
+/** Which of two pictures a layer belongs to when they are swiped: 'both' is in the one and the other. */
+export type Side = 'before' | 'after' | 'both';
+export const kSides: Readonly<Record<Side, number>> = { before: -1, both: 0, after: 1 };
+
 /** What a layer is told before each frame. */
 export interface Frame {
   readonly camera: Camera;
@@ -17,15 +21,13 @@ export interface Layer {
   readonly object: Object3D;
   /** The points that can be picked, if it has any. */
   pickable?(): readonly Pickable[];
-  /** How many points it has, and how many of them to draw. */
-  readonly points?: { loaded: number; important: boolean; draw(count: number): void };
+  /** How many points it has, how far from the anchor they reach at most, and how many of them to draw. */
+  readonly points?: { loaded: number; important: boolean; reach_m: number; draw(count: number): void };
+  /** Of the two pictures that are swiped, the one that it belongs to; both without it. */
+  readonly side?: Side;
   beforeFrame?(frame: Frame): void;
   dispose(): void;
 }
-
-/** Which of two pictures a layer belongs to when they are swiped: 'both' is in the one and the other. */
-export type Side = 'before' | 'after' | 'both';
-export const kSides: Readonly<Record<Side, number>> = { before: -1, both: 0, after: 1 };
 
 /** Numbers that all layers of a view share. */
 export interface Shared {

@@ -14,7 +14,6 @@ export interface Pickable {
   readonly part: QuantisedPoints;
   /** How many of them are drawn. */
   readonly drawn: number;
-  readonly shows: (pointClass: number) => boolean;
 }
 
 interface Best {
@@ -50,7 +49,7 @@ function search(
   camera: Camera,
   viewport: Viewport,
   at: { x: number; y: number },
-  { part, drawn, shows }: Pickable,
+  { part, drawn }: Pickable,
   radius_px: number,
 ): void {
   const { right, up, back } = axesOf(camera);
@@ -70,7 +69,7 @@ function search(
     const dx = (rx * x + ry * y + rz * z + r0) / depth_m - wanted.x;
     const dy = (ux * x + uy * y + uz * z + u0) / depth_m - wanted.y;
     const off2 = (dx * dx + dy * dy) / (radius * radius);
-    if (off2 > 1 || !shows(records[k + 3]! & 255)) continue;
+    if (off2 > 1) continue;
     // A pixel aside costs as much as a twentieth of the way farther.
     const cost = depth_m * (1 + Math.sqrt(off2) * radius_px * 0.05);
     if (cost < best.cost) Object.assign(best, { cost, part, index: i });

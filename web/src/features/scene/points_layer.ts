@@ -11,14 +11,14 @@ import {
   Vector3 as ThreeVector,
 } from 'three';
 import { type LoadedPoints } from '../../lib/points/point_store';
-import { kNumbersPerPoint, placeOf, type QuantisedPoints, type Vector3 } from '../../lib/points/quantised';
+import { boxOf, kNumbersPerPoint, placeOf, type QuantisedPoints, type Vector3 } from '../../lib/points/quantised';
 import { kFieldOfView_rad } from './camera';
 import { partOf } from './detail';
 import { type Frame, kSides, type Layer, type Shared, type Side } from './layer';
 import { type Palette } from './palette';
 import { type Pickable } from './picking';
 import { pointsMaterial, type PointUniforms } from './points_material';
-import { minus } from './vectors';
+import { length, minus } from './vectors';
 
 /** A box with its own axes, as the daemon tells it. */
 export interface TurnedBox {
@@ -38,6 +38,7 @@ export interface PointsStyle {
 export class PointsLayer implements Layer {
   readonly object = new Group();
   readonly points;
+  readonly side: Side;
   private readonly material: RawShaderMaterial;
   private readonly uniforms: PointUniforms;
   private readonly parts: { part: QuantisedPoints; object: Points }[] = [];
@@ -49,10 +50,12 @@ export class PointsLayer implements Layer {
     style: PointsStyle,
   ) {
     ({ material: this.material, uniforms: this.uniforms } = pointsMaterial(palette, shared.swipe));
+    this.side = style.side;
     this.uniforms.side.value = kSides[style.side];
     if (style.focus) this.focusOn(style.focus);
     this.points = {
       loaded: 0,
+      reach_m: 0,
       important: style.important,
       draw: (count: number): void => this.draw(count),
     };
@@ -64,15 +67,12 @@ export class PointsLayer implements Layer {
     if (begunAnew) this.clear();
     for (const part of loaded.parts.slice(this.parts.length)) this.append(part);
     this.points.loaded = loaded.loaded;
+    this.points.reach_m = Math.max(0, ...loaded.parts.map((part) => reachOf(part, this.shared.anchor_m)));
     this.draw(this.drawn);
   }
 
   pickable(): readonly Pickable[] {
-    return this.parts.map(({ part }) => ({
-      part,
-      drawn: partOf(this.drawn, part.first, part.count),
-      shows: () => true,
-    }));
+    return this.parts.map(({ part }) => ({ part, drawn: partOf(this.drawn, part.first, part.count) }));
   }
 
   beforeFrame({ camera, viewport, pixelRatio }: Frame): void {
@@ -130,6 +130,16 @@ export class PointsLayer implements Layer {
     }
     this.parts.length = 0;
   }
+}
+
+/** How far from the anchor the points may be. */
+function reachOf(part: QuantisedPoints, anchor_m: Vector3): number {
+  const { min, max } = boxOf(part);
+  return length(
+    minus(min, anchor_m).map((side, axis) =>
+      Math.max(Math.abs(side), Math.abs((max[axis] ?? 0) - (anchor_m[axis] ?? 0))),
+    ) as unknown as Vector3,
+  );
 }
 
 /** What takes the box to the cube from -1 to 1. */

@@ -40,7 +40,6 @@ export interface RayBundle {
 export interface SceneSpec {
   readonly site: string;
   readonly anchor_m: Vector3;
-  readonly radius_m: number;
   readonly clouds: readonly Cloud[];
   readonly boxes: readonly SceneBox[];
   readonly marks: readonly Mark[];

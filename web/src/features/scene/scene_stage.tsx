@@ -5,6 +5,7 @@ import './scene.css';
 import { type ComponentChildren } from 'preact';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { setQuery, useKeys, useSelect } from '../../app/app';
+import { type KeyBinding } from '../../lib/keys';
 import { type Box, type Vector3 } from '../../lib/points/quantised';
 import { type Camera } from './camera';
 import { chosen, kNotMeasuring, type Measuring, toggled } from './measuring';
@@ -12,8 +13,8 @@ import { type Label, Labels, Scale } from './overlay';
 import { Found, MeasureNote, NoPicture, Notices } from './notes';
 import { type Look, type Looks, type RayBundle, type SceneSpec, usualBox } from './scene_spec';
 import { Swipe } from './swipe';
-import { keyOfLook, Legend, Points, Toolbar } from './toolbar';
-import { useBoxes, useClouds, useLine, useRays } from './use_layers';
+import { kBudgets, keyOfLook, Legend, Points, Toolbar } from './toolbar';
+import { type Loading, useBoxes, useClouds, useLine, useRays } from './use_layers';
 import { useViewer } from './use_viewer';
 import { type Viewer } from './viewer';
 import { add, times } from './vectors';
@@ -98,33 +99,51 @@ function useCamera({ viewer, looks, firstLook }: InsideProps) {
   };
 }
 
+/** What the link says of the view. */
+function useChoices({ viewer, spec, query, hasRays }: InsideProps) {
+  const usual = viewer.size.width < kNarrow_px ? kBudgets[0] : kBudgets[1];
+  const swiped = query['swipe'] !== undefined && spec.before !== undefined;
+  const showsRays = hasRays && query['rays'] === '1';
+  return {
+    budget: kBudgets.find((budget) => String(budget) === query['points']) ?? usual,
+    swiped,
+    swipeAt: Math.min(100, Math.max(0, Number(query['swipe']) || 0)),
+    showsRays,
+    toggleSwipe: (): void => change({ swipe: swiped ? undefined : String(kHalfway) }),
+    toggleRays: (): void => change({ rays: showsRays ? undefined : '1' }),
+  };
+}
+
+type Choices = ReturnType<typeof useChoices>;
+
+const kLookDoes: Readonly<Record<Look, string>> = {
+  frame: 'frame it',
+  top: 'look from above',
+  sensor: 'look from the sensor',
+};
+
+function useSceneKeys(props: InsideProps, choices: Choices, look: (look: Look) => void, more: readonly KeyBinding[]) {
+  useKeys([
+    ...props.looksAvailable.map((name) => ({ key: keyOfLook(name), does: kLookDoes[name], run: () => look(name) })),
+    ...(props.spec.before === undefined ? [] : [{ key: 'b', does: 'before and after', run: choices.toggleSwipe }]),
+    ...(props.hasRays ? [{ key: 'y', does: 'the rays that prove it', run: choices.toggleRays }] : []),
+    ...more,
+  ]);
+}
+
 function Inside(props: InsideProps) {
-  const { viewer, spec, query } = props;
-  const swipeAt = query['swipe'] === undefined ? undefined : Number(query['swipe']) || 0;
-  const swiped = swipeAt !== undefined && spec.before !== undefined;
-  const usual = viewer.size.width < kNarrow_px ? 250_000 : 1_000_000;
-  const budget = Number(query['points'] ?? usual);
+  const { viewer, spec } = props;
+  const choices = useChoices(props);
+  const { budget, swiped, swipeAt, showsRays } = choices;
   const camera = useCamera(props);
   const loading = useClouds(viewer, spec, { budget, swiped }, ({ parts: [part] }) => {
     if (part) camera.know(usualBox(part));
   });
-  const showsRays = props.hasRays && query['rays'] === '1';
   useBoxes(viewer, spec.boxes);
   useRays(viewer, showsRays ? props.rays : undefined);
   useEffect(() => viewer.swipe(swiped ? swipeAt / 50 - 1 : undefined), [viewer, swiped, swipeAt]);
   const pointing = usePointing(props);
-  const toggleSwipe = (): void => change({ swipe: swiped ? undefined : String(kHalfway) });
-  const toggleRays = (): void => change({ rays: showsRays ? undefined : '1' });
-  useKeys([
-    ...props.looksAvailable.map((look) => ({
-      key: keyOfLook(look),
-      does: { frame: 'frame it', top: 'look from above', sensor: 'look from the sensor' }[look],
-      run: () => camera.look(look),
-    })),
-    ...(spec.before === undefined ? [] : [{ key: 'b', does: 'before and after', run: toggleSwipe }]),
-    ...(props.hasRays ? [{ key: 'y', does: 'the rays that prove it', run: toggleRays }] : []),
-    ...pointing.keys,
-  ]);
+  useSceneKeys(props, choices, camera.look, pointing.keys);
   const labels = useMemo(
     () => [...labelsOf(spec), ...pointing.labels],
     [JSON.stringify([spec.boxes, spec.marks]), pointing.labels],
@@ -132,14 +151,7 @@ function Inside(props: InsideProps) {
   return (
     <>
       <Labels viewer={viewer} labels={labels} />
-      {swiped && (
-        <Swipe
-          at={swipeAt}
-          onMove={(at) => change({ swipe: String(at) })}
-          before={spec.before ?? ''}
-          after={spec.after ?? ''}
-        />
-      )}
+      {swiped && <Border spec={spec} at={swipeAt} />}
       {pointing.measures && <span class="scene-cross" aria-hidden="true" />}
       <Toolbar
         looks={props.looksAvailable}
@@ -147,20 +159,31 @@ function Inside(props: InsideProps) {
         swiped={spec.before === undefined ? undefined : swiped}
         rays={props.hasRays ? showsRays : undefined}
         measures={pointing.measures}
-        onSwipe={toggleSwipe}
-        onRays={toggleRays}
+        onSwipe={choices.toggleSwipe}
+        onRays={choices.toggleRays}
         onMeasure={pointing.toggle}
       />
       <div class="scene-notes">
         <Notices loading={loading} />
         {pointing.note}
       </div>
-      <div class="scene-foot">
-        <Legend kinds={legendOf(spec)} />
-        <Scale viewer={viewer} />
-        <Points loading={loading} budget={budget} onBudget={(points) => change({ points: String(points) })} />
-      </div>
+      <Foot viewer={viewer} spec={spec} loading={loading} budget={budget} />
     </>
+  );
+}
+
+function Border({ spec, at }: { spec: SceneSpec; at: number }) {
+  const move = (to: number): void => change({ swipe: String(to) });
+  return <Swipe at={at} onMove={move} before={spec.before ?? ''} after={spec.after ?? ''} />;
+}
+
+function Foot(props: { viewer: Viewer; spec: SceneSpec; loading: Loading; budget: number }) {
+  return (
+    <div class="scene-foot">
+      <Legend kinds={legendOf(props.spec)} />
+      <Scale viewer={props.viewer} />
+      <Points loading={props.loading} budget={props.budget} onBudget={(points) => change({ points: String(points) })} />
+    </div>
   );
 }
 
@@ -233,9 +256,6 @@ function labelsOf({ boxes, marks }: SceneSpec): Label[] {
 
 function legendOf({ boxes, clouds }: SceneSpec) {
   const kinds = (['added', 'removed', 'discrepancy'] as const).filter((kind) => boxes.some((box) => box.kind === kind));
-  return [
-    ...kinds,
-    'unchanged' as const,
-    ...(clouds.some(({ from }) => from.includes('unseen')) ? (['unseen'] as const) : []),
-  ];
+  const compared = clouds.some(({ from }) => from.includes('unseen'));
+  return compared ? ([...kinds, 'unchanged', 'unseen'] as const) : [];
 }

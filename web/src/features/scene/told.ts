@@ -12,11 +12,17 @@ export const vectorOf = ([x = 0, y = 0, z = 0]: readonly number[]): Vector3 => [
 const ofComparison = (id: number, classes: readonly PointClass[]): string =>
   address('/api/v1/comparisons/{id}/points', { path: { id }, query: { format: 'q16', class: classes.join(',') } });
 
-export const scanPoints = (id: number): string =>
+const scanPoints = (id: number): string =>
   address('/api/v1/scans/{id}/points', { path: { id }, query: { format: 'q16', frame: 'world' } });
 
+/** A scan by itself: nothing is said of any point. */
+export const scanCloud = (id: number): Cloud[] => [
+  { from: scanPoints(id), what: 'The scan', side: 'both', important: false },
+];
+
 /** A comparison's points: what is as before or was not seen, what is new, what is gone; and its priors, for swiping. */
-export function comparisonClouds({ id, priors, counts }: Comparison): Cloud[] {
+export function comparisonClouds({ id, scan, priors, counts }: Comparison): Cloud[] {
+  if (priors.length === 0) return scanCloud(scan);
   const changed = (classes: readonly PointClass[]): boolean =>
     classes.some((name) => name !== 'invalid' && counts[name] > 0);
   const context: Cloud = {
@@ -41,9 +47,9 @@ export function comparisonClouds({ id, priors, counts }: Comparison): Cloud[] {
     context,
     ...(changed(['added', 'discrepancy']) ? [fresh] : []),
     ...(changed(['removed']) ? [gone] : []),
-    ...priors.map(({ scan }): Cloud => ({
-      from: scanPoints(scan),
-      what: `Scan ${scan}`,
+    ...priors.map((prior): Cloud => ({
+      from: scanPoints(prior.scan),
+      what: `Scan ${prior.scan}`,
       side: 'before',
       important: false,
       onlySwiped: true,

@@ -74,7 +74,7 @@ export function Legend({ kinds }: { kinds: readonly (typeof kSigns)[number]['kin
   );
 }
 
-const kBudgets = [250_000, 1_000_000, 10_000_000] as const;
+export const kBudgets = [250_000, 1_000_000, 10_000_000] as const;
 
 /** How many points are there, and how many shall be. */
 export function Points({

@@ -13,7 +13,6 @@ export type ViewerState =
 
 export interface ViewerSetting {
   readonly anchor_m: Vector3;
-  readonly radius_m: number;
   readonly camera: Camera;
 }
 

@@ -17,14 +17,15 @@ export interface ViewerOptions {
   readonly palette: Palette;
   readonly anchor_m: Vector3;
   readonly camera: Camera;
-  /** How far from the anchor there is something to see. */
-  readonly radius_m: number;
 }
 
 // The styles' colours go to the screen as they are.
 ColorManagement.enabled = false;
 
 const kMostPixelRatio = 2;
+/** How far from the anchor something is seen: as far as the points go, but for one that is absurdly far. */
+const kLeastReach_m = 50;
+const kMostReach_m = 10_000;
 const kLongestStep_s = 0.05;
 
 /** What stands over the picture follows it: called after each frame. */
@@ -45,8 +46,7 @@ export class Viewer {
   private frame: number | undefined;
   private before_ms: number | undefined;
 
-  constructor(private readonly options: ViewerOptions) {
-    const { canvas, context, palette, anchor_m, camera } = options;
+  constructor({ canvas, context, palette, anchor_m, camera }: ViewerOptions) {
     this.palette = palette;
     this.shared = { swipe: { value: new Vector2(0, 0) }, anchor_m };
     this.renderer = new WebGLRenderer({ canvas, context, antialias: false });
@@ -103,7 +103,11 @@ export class Viewer {
   }
 
   pick(at: { x: number; y: number }): Picked | undefined {
-    const among = [...this.layers].filter(({ object }) => object.visible).flatMap((layer) => layer.pickable?.() ?? []);
+    const { x: border, y: swiped } = this.shared.swipe.value;
+    const hidden = (at.x / this.viewport.width) * 2 - 1 < border ? 'after' : 'before';
+    const among = [...this.layers]
+      .filter(({ side }) => swiped === 0 || side !== hidden)
+      .flatMap((layer) => layer.pickable?.() ?? []);
     return pick(this.shown, this.viewport, at, among);
   }
 
@@ -165,7 +169,8 @@ export class Viewer {
     );
     this.eye.matrix.copy(this.eye.matrixWorld);
     const away_m = length(minus(this.shown.target_m, this.shared.anchor_m));
-    Object.assign(this.eye, depthRange(this.shown, this.options.radius_m + away_m));
+    const reach_m = Math.max(kLeastReach_m, ...[...this.layers].map((layer) => layer.points?.reach_m ?? 0));
+    Object.assign(this.eye, depthRange(this.shown, Math.min(kMostReach_m, reach_m) + away_m));
     this.eye.aspect = this.viewport.width / this.viewport.height;
     this.eye.updateProjectionMatrix();
   }
