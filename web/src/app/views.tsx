@@ -39,6 +39,9 @@ function loaded<Module>(load: () => Promise<Module>): (name: keyof Module) => Co
     lazy<ViewProps>(async () => (await load())[name] as ComponentType<ViewProps>) as ComponentType<never>;
 }
 
+const history = loaded(() => import('../features/history/history_view'));
+const tracks = loaded(() => import('../features/tracks/views'));
+const comparisons = loaded(() => import('../features/comparisons/views'));
 const zones = loaded(() => import('../features/zones/views'));
 const channels = loaded(() => import('../features/channels/views'));
 const rules = loaded(() => import('../features/rules/views'));
@@ -47,41 +50,14 @@ export const kViews: readonly View[] = [
   view('/', 'Overview', OverviewView, { icon: 'overview' }),
   view('/alerts', 'Alerts', AlertsView, { icon: 'alert' }),
   view('/alerts/:id', 'Alert', AlertsView),
-  view(
-    '/history',
-    'History',
-    lazy(() => import('../features/history/history_view').then((module) => module.HistoryView)),
-    { icon: 'history' },
-  ),
-  view(
-    '/tracks',
-    'Tracks',
-    lazy(() => import('../features/tracks/tracks_view').then((module) => module.TracksView)),
-    { icon: 'change' },
-  ),
-  view(
-    '/tracks/:id',
-    'Track',
-    lazy(() => import('../features/tracks/track_view').then((module) => module.TrackView)),
-  ),
+  view('/history', 'History', history('HistoryView'), { icon: 'history' }),
+  view('/tracks', 'Tracks', tracks('TracksView'), { icon: 'change' }),
+  view('/tracks/:id', 'Track', tracks('TrackView')),
   view('/scans', 'Scans', ScansView, { icon: 'scan' }),
   view('/scans/:id', 'Scan', ScanView),
-  view(
-    '/comparisons',
-    'Comparisons',
-    lazy(() => import('../features/comparisons/comparisons_view').then((module) => module.ComparisonsView)),
-    { icon: 'compare' },
-  ),
-  view(
-    '/comparisons/:id',
-    'Comparison',
-    lazy(() => import('../features/comparisons/comparison_view').then((module) => module.ComparisonView)),
-  ),
-  view(
-    '/compare',
-    'Compare by hand',
-    lazy(() => import('../features/comparisons/compare_view').then((module) => module.CompareView)),
-  ),
+  view('/comparisons', 'Comparisons', comparisons('ComparisonsView'), { icon: 'compare' }),
+  view('/comparisons/:id', 'Comparison', comparisons('ComparisonView')),
+  view('/compare', 'Compare by hand', comparisons('CompareView')),
   view('/sensors', 'Sensors', SensorsView, { icon: 'sensor' }),
   view('/sensors/:name', 'Sensor', SensorView),
   view('/baselines', 'Baselines', BaselinesView, { icon: 'baseline' }),

@@ -2,6 +2,7 @@
 
 import { type Schema } from '../../lib/api';
 import { count, counted, duration, percent, placeMetres, sizeMetres, volume } from '../../lib/format';
+import { historyLink, pointPlace } from '../../lib/place';
 import { KindBadge } from '../../ui/badges';
 import { SightStrip } from '../../ui/sight_strip';
 import { Time } from '../../ui/time';
@@ -29,9 +30,8 @@ export function Why({ alert, why }: { alert: Schema<'Alert'>; why: Reason }) {
               Change {change}
             </ViewLink>
           ))}
-          <ViewLink to={`/history?site=${encodeURIComponent(alert.site)}&point=${why.track.centroid_m.join(',')}`}>
-            This place through time
-          </ViewLink>
+          <a href={`/tracks/${why.track.id}`}>Track {why.track.id}</a>
+          <a href={historyLink(alert.site, pointPlace(why.track.centroid_m))}>History of this place</a>
         </p>
       </section>
       <section class="alert-part">
