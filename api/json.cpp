@@ -1,6 +1,7 @@
 #include "api/json.hpp"
 
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -41,11 +42,16 @@ std::string to_json_text(const Json& json) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-HttpAnswer json_answer(const Json& json, int status) {
+HttpAnswer json_text_answer(JsonText json) {
   HttpAnswer answer;
-  answer.status = status;
   answer.content_type = "application/json";
-  answer.body = to_json_text(json);
+  answer.body = std::move(json.text);
+  return answer;
+}
+
+HttpAnswer json_answer(const Json& json, int status) {
+  HttpAnswer answer = json_text_answer({to_json_text(json)});
+  answer.status = status;
   return answer;
 }
 

@@ -1,7 +1,10 @@
 #include "api/point_set.hpp"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
+#include "api/refinement.hpp"
 #include "api/voxel_thinning.hpp"
 #include "core/compare.hpp"
 
@@ -15,6 +18,22 @@ std::vector<T> picked(const std::vector<T>& values, std::span<const std::uint32_
   result.reserve(places.size());
   for (const std::uint32_t place : places) result.push_back(values[place]);
   return result;
+}
+
+/// The points at these places, in their order.
+PointSet at(const PointSet& set, std::span<const std::uint32_t> places) {
+  return {.x_m = picked(set.x_m, places),
+          .y_m = picked(set.y_m, places),
+          .z_m = picked(set.z_m, places),
+          .intensity = picked(set.intensity, places),
+          .point_class = picked(set.point_class, places),
+          .free = picked(set.free, places),
+          .supported = picked(set.supported, places),
+          .change = picked(set.change, places),
+          .prior = picked(set.prior, places),
+          .origin_m = set.origin_m,
+          .viewpoint = set.viewpoint,
+          .quantisation = set.quantisation};
 }
 
 /// What CSV prints for a class.
@@ -33,8 +52,12 @@ void add_column(PointTable& table, const char* name, const std::vector<T>& value
 }
 
 PointTable table_of(const PointSet& set) {
-  PointTable table{
-      .x_m = set.x_m, .y_m = set.y_m, .z_m = set.z_m, .origin_m = set.origin_m, .viewpoint = set.viewpoint};
+  PointTable table{.x_m = set.x_m,
+                   .y_m = set.y_m,
+                   .z_m = set.z_m,
+                   .origin_m = set.origin_m,
+                   .viewpoint = set.viewpoint,
+                   .quantisation = set.quantisation};
   add_column(table, "intensity", set.intensity);
   if (!set.point_class.empty()) {
     table.columns.push_back({"class", std::span<const std::uint8_t>(set.point_class), class_names()});
@@ -46,6 +69,17 @@ PointTable table_of(const PointSet& set) {
   return table;
 }
 
+void parse_budget(Query& query, PointRequest& request) {
+  constexpr std::int64_t kMost = 10'000'000;
+  constexpr std::size_t kUsual = 1'000'000;
+  const auto budget = query.integer("budget", {.min = 1, .max = kMost});
+  const auto skip = query.integer("skip", {.min = 0, .max = std::numeric_limits<std::uint32_t>::max()});
+  if (budget) request.budget = static_cast<std::size_t>(*budget);
+  if (request.format == PointFormat::q16 && !budget) request.budget = kUsual;
+  if (skip) request.skip = static_cast<std::size_t>(*skip);
+  if (skip && !request.budget) query.fail("skip", "goes with budget, or with format=q16: else nothing says the order");
+}
+
 }  // namespace
 
 PointRequest parse_point_request(Query& query, Frame usual_frame) {
@@ -55,12 +89,14 @@ PointRequest parse_point_request(Query& query, Frame usual_frame) {
   request.frame = frame.value_or(usual_frame);
   request.format = format.value_or(PointFormat::pcd);
   request.voxel_m = query.real("voxel_m", {.min = 0.001, .max = 1000.0});
+  parse_budget(query, request);
   return request;
 }
 
 std::string text_of(const PointRequest& request) {
   return std::string(request.frame == Frame::world ? "world" : "sensor") + "," + std::string(ending(request.format)) +
-         "," + (request.voxel_m ? to_text(*request.voxel_m) : "all");
+         "," + (request.voxel_m ? to_text(*request.voxel_m) : "all") + "," +
+         (request.budget ? std::to_string(*request.budget) : "all") + "," + std::to_string(request.skip);
 }
 
 Eigen::Vector3f moved(const Eigen::Vector3f& point_m, const Pose& to_from_points) {
@@ -72,19 +108,17 @@ void append_moved(PointSet& set, const PointCloud& points, const Pose& to_from_p
   for (std::size_t i = 0; i < points.size(); ++i) set.push_back(moved(points[i], to_from_points));
 }
 
-PointSet thinned(const PointSet& set, double voxel_m) {
-  const auto places = thin({set.x_m, set.y_m, set.z_m, set.point_class}, voxel_m);
-  return {.x_m = picked(set.x_m, places),
-          .y_m = picked(set.y_m, places),
-          .z_m = picked(set.z_m, places),
-          .intensity = picked(set.intensity, places),
-          .point_class = picked(set.point_class, places),
-          .free = picked(set.free, places),
-          .supported = picked(set.supported, places),
-          .change = picked(set.change, places),
-          .prior = picked(set.prior, places),
-          .origin_m = set.origin_m,
-          .viewpoint = set.viewpoint};
+PointSet thinned(PointSet set, const PointRequest& request) {
+  if (request.voxel_m) set = at(set, thin({set.x_m, set.y_m, set.z_m, set.point_class}, *request.voxel_m));
+  if (!request.budget) return set;
+  const CoordinatePlanes points{set.x_m, set.y_m, set.z_m};
+  const std::vector<std::uint32_t> order = refinement_order(points);
+  const std::size_t first = std::min(request.skip, order.size());
+  const std::size_t count = std::min(*request.budget, order.size() - first);
+  PointSet part = at(set, std::span(order).subspan(first, count));
+  part.quantisation = quantisation_of(points, set.intensity);
+  part.quantisation->first = first;
+  return part;
 }
 
 std::string_view ending(PointFormat format) {
@@ -95,6 +129,8 @@ std::string_view ending(PointFormat format) {
       return "ply";
     case PointFormat::csv:
       return "csv";
+    case PointFormat::q16:
+      return "q16";
     case PointFormat::bin:
       break;
   }

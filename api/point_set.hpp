@@ -17,11 +17,13 @@
 
 namespace raywatch {
 
-/// How points are asked for: `frame`, `format`, `voxel_m`.
+/// How points are asked for: `frame`, `format`, `voxel_m`, `budget`, `skip`.
 struct PointRequest {
   Frame frame = Frame::sensor;
   PointFormat format = PointFormat::pcd;
   std::optional<double> voxel_m;
+  std::optional<std::size_t> budget;  ///< at most so many points, in the order of refinement
+  std::size_t skip = 0;               ///< of that order: how many the client has already
 };
 PointRequest parse_point_request(Query& query, Frame usual_frame);
 
@@ -36,6 +38,7 @@ struct PointSet {
   std::vector<std::int32_t> change, prior;
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();  ///< what the coordinates are relative to
   Pose viewpoint;                                      ///< of PCD files
+  std::optional<Quantisation> quantisation;            ///< of the set that this is a part of
 
   std::size_t size() const { return x_m.size(); }
   void push_back(const Eigen::Vector3f& point_m) {
@@ -49,8 +52,8 @@ struct PointSet {
 void append_moved(PointSet& set, const PointCloud& points, const Pose& to_from_points);
 Eigen::Vector3f moved(const Eigen::Vector3f& point_m, const Pose& to_from_points);
 
-/// The set with one point a voxel (see `thin`) and class.
-PointSet thinned(const PointSet& set, double voxel_m);
+/// As few points of the set as the request wants: one a voxel (see `thin`) and class, and no more than its budget.
+PointSet thinned(PointSet set, const PointRequest& request);
 
 /// Streams the points; `name` is the suggested file name without its ending.
 HttpAnswer point_answer(std::shared_ptr<const PointSet> set, PointFormat format, const std::string& name);

@@ -72,10 +72,13 @@ Json render_figures(const Change& change, const Eigen::Vector3d& origin_m);
 
 /// A page of records: {"items", "next"}.
 template <class T, class RenderItem>
-Json render_page(const Page<T>& page, RenderItem render_item) {
-  Json items = Json::array();
-  for (const T& item : page.items) items.push_back(render_item(item));
-  return {{"items", std::move(items)}, {"next", json_or_null(page.next)}};
+JsonText render_page(const Page<T>& page, RenderItem render_item) {
+  std::string text = R"({"items":[)";
+  for (const T& item : page.items) {
+    if (&item != &page.items.front()) text += ',';
+    text += to_json_text(render_item(item));
+  }
+  return {text + R"(],"next":)" + to_json_text(json_or_null(page.next)) + "}"};
 }
 
 }  // namespace raywatch

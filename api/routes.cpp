@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "api/endpoints/endpoints.hpp"
+#include "api/endpoints/survey_endpoints.hpp"
 #include "api/problem.hpp"
 #include "api/text_values.hpp"
 
@@ -94,6 +95,30 @@ constexpr Route kRoutes[] = {
     {"POST", "/api/v1/channels/{id}/test", endpoints::test_channel, "Sends a test message at once"},
     {"GET", "/api/v1/deliveries", endpoints::list_deliveries, "Lists what was sent, or waits"},
     {"POST", "/api/v1/deliveries/{id}/retry", endpoints::retry_delivery, "Sends again what failed"},
+
+    {"POST", "/api/v1/schedules", endpoints::create_schedule, "Makes a schedule of surveys"},
+    {"GET", "/api/v1/schedules", endpoints::list_schedules, "Lists the schedules of surveys"},
+    {"GET", "/api/v1/schedules/{id}", endpoints::get_schedule, "One schedule"},
+    {"PUT", "/api/v1/schedules/{id}", endpoints::replace_schedule, "Replaces a schedule"},
+    {"DELETE", "/api/v1/schedules/{id}", endpoints::delete_schedule, "Deletes a schedule; its surveys stay"},
+    {"POST", "/api/v1/schedules/{id}/run", endpoints::run_schedule, "Runs a schedule at once"},
+    {"GET", "/api/v1/schedules/{id}/runs", endpoints::list_schedule_runs, "What became of the runs of a schedule"},
+
+    {"POST", "/api/v1/epochs", endpoints::create_epoch, "Makes an epoch of the scans of a time window"},
+    {"GET", "/api/v1/epochs", endpoints::list_epochs, "Lists the epochs"},
+    {"GET", "/api/v1/epochs/{id}", endpoints::get_epoch, "One epoch"},
+    {"DELETE", "/api/v1/epochs/{id}", endpoints::delete_epoch, "Deletes an epoch; its scans and surveys stay"},
+    {"POST", "/api/v1/epochs/{id}/accept", endpoints::accept_epoch, "Accepts an epoch as a state to compare with"},
+
+    {"POST", "/api/v1/surveys", endpoints::create_survey, "Surveys what changed between two epochs"},
+    {"GET", "/api/v1/surveys", endpoints::list_surveys, "Lists the surveys"},
+    {"GET", "/api/v1/surveys/runs", endpoints::list_survey_runs, "Lists the runs of surveys, whatever began them"},
+    {"GET", "/api/v1/surveys/runs/{id}", endpoints::get_survey_run, "One run of a survey, with its log"},
+    {"GET", "/api/v1/surveys/series", endpoints::get_survey_series, "One figure through time, and how fast it changes"},
+    {"GET", "/api/v1/surveys/{id}", endpoints::get_survey, "One survey, and what it rests on"},
+    {"GET", "/api/v1/surveys/{id}/volumes", endpoints::get_survey_volumes, "The figures of each zone, and in total"},
+    {"GET", "/api/v1/surveys/{id}/changes", endpoints::list_survey_changes, "The changes, each with its own volume"},
+    {"GET", "/api/v1/surveys/{id}/dod", endpoints::get_survey_grid, "The elevation models and their difference"},
 
     {"GET", "/api/v1/storage", endpoints::get_storage, "What is stored, how much room is left, and for how long"},
     {"GET", "/api/v1/storage/deletions", endpoints::list_deletions, "What was deleted, when and why"},

@@ -14,15 +14,6 @@ std::string percent(double share) {
 
 using Cover = std::vector<std::uint8_t>;  // one a sample point: inside the coverage or not
 
-Cover cover_of(const PriorCandidate& candidate, std::span<const Eigen::Vector3d> sample_m) {
-  const Pose sensor_from_world = candidate.world_from_sensor.inverse();
-  Cover cover(sample_m.size());
-  std::transform(sample_m.begin(), sample_m.end(), cover.begin(), [&](const Eigen::Vector3d& point_m) {
-    return static_cast<std::uint8_t>(covers(candidate.coverage, sensor_from_world, point_m));
-  });
-  return cover;
-}
-
 double share(std::size_t count, std::size_t total) {
   return total == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(total);
 }
@@ -74,7 +65,7 @@ std::vector<CandidateAssessment> choose_priors(std::span<const Eigen::Vector3d> 
   std::vector<Cover> covers(candidates.size());
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     CandidateAssessment& assessment = assessments[c];
-    covers[c] = cover_of(candidates[c], sample_m);
+    covers[c] = covered(*candidates[c].coverage, candidates[c].world_from_sensor.inverse(), sample_m);
     assessment.distance_m = (candidates[c].world_from_sensor.position_m - world_from_sensor.position_m).norm();
     assessment.age = captured_at - candidates[c].captured_at;
     assessment.overlap =

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,7 +19,7 @@ namespace raywatch {
 struct PriorCandidate {
   Pose world_from_sensor;
   Time captured_at;
-  Panorama coverage;
+  std::shared_ptr<const Panorama> coverage;
   bool required = false;     ///< asked for by name (an explicit reference): chosen unless it overlaps nowhere
   std::string refused = {};  ///< why it must not be chosen; empty: it may be
 };

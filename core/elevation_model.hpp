@@ -92,5 +92,7 @@ struct HeightLeverage {
   }
 };
 HeightLeverage leverage_of(const ElevationModel& model, std::size_t station, std::size_t cell);
+/// The variance of a height that the poses of all stations of a model cause.
+double pose_variance_m2(const ElevationModel& model, std::size_t cell);
 
 }  // namespace raywatch

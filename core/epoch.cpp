@@ -24,10 +24,8 @@ std::vector<ScanView> overlapping(const ScanView& scan, const EpochScans& other,
       sample_world_points(scan.points, scan.world_from_sensor, scan.index.usable(), ChoiceParameters{}.sample_points);
   std::vector<ScanView> result;
   for (std::size_t k = 0; k < other.scans.size(); ++k) {
-    const Pose sensor_from_world = other.scans[k].world_from_sensor.inverse();
-    const auto covered = std::ranges::count_if(
-        sample_m, [&](const Eigen::Vector3d& p) { return covers(coverage[k], sensor_from_world, p); });
-    if (static_cast<double>(covered) >= kLeastOverlap * static_cast<double>(sample_m.size())) {
+    const std::vector<std::uint8_t> inside = covered(coverage[k], other.scans[k].world_from_sensor.inverse(), sample_m);
+    if (static_cast<double>(std::ranges::count(inside, 1)) >= kLeastOverlap * static_cast<double>(sample_m.size())) {
       result.push_back(other.scans[k]);
     }
   }

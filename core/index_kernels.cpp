@@ -105,7 +105,7 @@ void find_usable_simd(const PointPlanes& points, const UsableRange& usable, std:
   });
 }
 
-ElevationBand find_elevation_band_simd(const PointPlanes& points, const UsableRange& usable) {
+ScannedBand find_elevation_band_simd(const PointPlanes& points, const UsableRange& usable) {
   const FloatTag d;
   const UsableTest is_valid(usable);
   Floats low = constant(2.0f), high = constant(-2.0f);
@@ -213,7 +213,7 @@ void find_usable(const PointPlanes& points, const UsableRange& usable, std::uint
   HWY_DYNAMIC_DISPATCH(find_usable_simd)(points, usable, valid);
 }
 
-ElevationBand find_elevation_band(const PointPlanes& points, const UsableRange& usable) {
+ScannedBand find_elevation_band(const PointPlanes& points, const UsableRange& usable) {
   return HWY_DYNAMIC_DISPATCH(find_elevation_band_simd)(points, usable);
 }
 

@@ -29,12 +29,12 @@ inline PointPlanes planes_of(const PointCloud& points) {
 void find_usable(const PointPlanes& points, const UsableRange& usable, std::uint8_t* valid);
 
 /// How many points are usable, and bounds of their elevations (0 and 0 when none is).
-struct ElevationBand {
+struct ScannedBand {
   std::size_t count = 0;
   double low_rad = 0.0;
   double high_rad = 0.0;
 };
-ElevationBand find_elevation_band(const PointPlanes& points, const UsableRange& usable);
+ScannedBand find_elevation_band(const PointPlanes& points, const UsableRange& usable);
 
 inline constexpr std::uint32_t kNoCell = std::numeric_limits<std::uint32_t>::max();
 

@@ -1,22 +1,36 @@
 #include "core/panorama.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/index_kernels.hpp"
 
 namespace raywatch {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-std::size_t cell_of(const Eigen::Vector3d& point_m) {
-  const double elevation = std::atan2(point_m.z(), std::hypot(point_m.x(), point_m.y()));
-  const double azimuth = std::atan2(point_m.y(), point_m.x());
-  const auto row = static_cast<std::size_t>(std::max(0.0, (elevation / kPi + 0.5) * Panorama::kRows));
-  const auto column = static_cast<std::size_t>(std::max(0.0, (azimuth / (2 * kPi) + 0.5) * Panorama::kColumns));
+std::size_t cell_of(float azimuth_rad, float elevation_rad) {
+  const auto row = static_cast<std::size_t>(std::max(0.0, (elevation_rad / kPi + 0.5) * Panorama::kRows));
+  const auto column = static_cast<std::size_t>(std::max(0.0, (azimuth_rad / (2 * kPi) + 0.5) * Panorama::kColumns));
   return std::min(row, Panorama::kRows - 1) * Panorama::kColumns + std::min(column, Panorama::kColumns - 1);
+}
+
+/// Calls visit(i, range_m, cell) for every point, in order.
+template <class Visit>
+void for_each_cell(const PointPlanes& points, Visit visit) {
+  constexpr std::size_t kBlock = 1024;
+  std::array<float, kBlock> ranges_m, azimuths_rad, elevations_rad;
+  for (std::size_t begin = 0; begin < points.size; begin += kBlock) {
+    const std::size_t count = std::min(kBlock, points.size - begin);
+    to_spherical(points.subspan(begin, count), ranges_m.data(), azimuths_rad.data(), elevations_rad.data());
+    for (std::size_t k = 0; k < count; ++k) {
+      visit(begin + k, ranges_m[k], std::isfinite(ranges_m[k]) ? cell_of(azimuths_rad[k], elevations_rad[k]) : 0);
+    }
+  }
 }
 
 std::uint16_t encode(double range_m) {
@@ -30,17 +44,13 @@ double Panorama::range_m(std::size_t cell) const {
 }
 
 Panorama make_panorama(const PointCloud& points, const UsableRange& usable) {
-  std::vector<double> farthest_m(Panorama::kRows * Panorama::kColumns, 0.0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d point_m = points[i].cast<double>();
-    const double range_m = point_m.norm();
-    if (!is_usable(range_m, usable)) continue;
-    double& farthest = farthest_m[cell_of(point_m)];
-    farthest = std::max(farthest, range_m);
-  }
+  std::vector<float> farthest_m(Panorama::kRows * Panorama::kColumns, 0.0f);
+  for_each_cell(planes_of(points), [&](std::size_t, float range_m, std::size_t cell) {
+    if (is_usable(range_m, usable)) farthest_m[cell] = std::max(farthest_m[cell], range_m);
+  });
   Panorama panorama;
   panorama.farthest.reserve(farthest_m.size());
-  for (const double range_m : farthest_m) panorama.farthest.push_back(range_m > 0.0 ? encode(range_m) : 0);
+  for (const float range_m : farthest_m) panorama.farthest.push_back(range_m > 0.0f ? encode(range_m) : 0);
   return panorama;
 }
 
@@ -68,19 +78,26 @@ Panorama panorama_from_bytes(std::span<const std::uint8_t> bytes) {
   return panorama;
 }
 
-bool covers(const Panorama& panorama, const Pose& sensor_from_world, const Eigen::Vector3d& point_m) {
+std::vector<std::uint8_t> covered(const Panorama& panorama, const Pose& sensor_from_world,
+                                  std::span<const Eigen::Vector3d> points_m) {
   constexpr double kBehind = 0.05;  // of the range: within it a point may still be part of the farthest surface
-  const Eigen::Vector3d local_m = sensor_from_world * point_m;
-  const double seen_m = panorama.range_m(cell_of(local_m));
-  return seen_m > 0.0 && local_m.norm() <= seen_m * (1.0 + kBehind) + kBehind;
+  PointCloud local;
+  local.reserve(points_m.size());
+  for (const Eigen::Vector3d& point_m : points_m) {
+    const Eigen::Vector3f p = (sensor_from_world * point_m).cast<float>();
+    local.push_back(p.x(), p.y(), p.z());
+  }
+  std::vector<std::uint8_t> inside(points_m.size());
+  for_each_cell(planes_of(local), [&](std::size_t i, float range_m, std::size_t cell) {
+    const double seen_m = panorama.range_m(cell);
+    inside[i] = seen_m > 0.0 && range_m <= seen_m * (1.0 + kBehind) + kBehind;
+  });
+  return inside;
 }
 
 double reach_m(const Panorama& panorama) {
-  double farthest_m = 0.0;
-  for (std::size_t cell = 0; cell < panorama.farthest.size(); ++cell) {
-    farthest_m = std::max(farthest_m, panorama.range_m(cell));
-  }
-  return farthest_m;
+  const auto farthest = std::max_element(panorama.farthest.begin(), panorama.farthest.end());
+  return panorama.range_m(static_cast<std::size_t>(farthest - panorama.farthest.begin()));
 }
 
 }  // namespace raywatch

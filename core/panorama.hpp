@@ -32,8 +32,9 @@ std::vector<std::uint8_t> to_bytes(const Panorama& panorama);
 /// @throws CorruptData when the length is wrong.
 Panorama panorama_from_bytes(std::span<const std::uint8_t> bytes);
 
-/// True if a point (world) lies in a direction that was covered and not far behind what was seen there.
-bool covers(const Panorama& panorama, const Pose& sensor_from_world, const Eigen::Vector3d& point_m);
+/// Of each point (world): 1 if it lies in a direction that was covered and not far behind what was seen there, else 0.
+std::vector<std::uint8_t> covered(const Panorama& panorama, const Pose& sensor_from_world,
+                                  std::span<const Eigen::Vector3d> points_m);
 
 /// The farthest that the scan saw.
 double reach_m(const Panorama& panorama);

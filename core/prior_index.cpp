@@ -6,6 +6,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,36 +16,61 @@
 
 #include "core/index_kernels.hpp"
 #include "core/prior_index_impl.hpp"
+#include "core/spread_sample.hpp"
 
 namespace raywatch {
 namespace {
 
 /// As few as 24 bytes a return allow. Then a cell of a sensor with equal steps in both angles lies inside of a cone
-/// of 1.6 steps, wherever in the cell the axis of the cone is, also if a part of the band is empty sky; and the bounds
-/// of that cell alone support most points.
+/// of 1.6 steps, wherever in the cell the axis of the cone is; and the bounds of that cell alone support most points.
 constexpr double kReturnsPerCell = 1.02;
+/// Cells where nothing was seen cost memory, so there are not many more of them than returns.
+constexpr double kMostCellsPerReturn = 6.0;
 constexpr double kLeastCell_rad = 2e-5;
 constexpr double kMostCell_rad = 0.05;
 
 /// As `find_elevation_band` of all points.
-ElevationBand elevation_band_of(const PointPlanes& points, const UsableRange& usable) {
-  const auto merge = [](const ElevationBand& a, const ElevationBand& b) {
+ScannedBand elevation_band_of(const PointPlanes& points, const UsableRange& usable) {
+  const auto merge = [](const ScannedBand& a, const ScannedBand& b) {
     if (a.count == 0 || b.count == 0) return a.count == 0 ? b : a;
-    return ElevationBand{a.count + b.count, std::min(a.low_rad, b.low_rad), std::max(a.high_rad, b.high_rad)};
+    return ScannedBand{a.count + b.count, std::min(a.low_rad, b.low_rad), std::max(a.high_rad, b.high_rad)};
   };
   constexpr std::size_t kGrain = 65536;
   return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, points.size, kGrain), ElevationBand{},
-      [&](const tbb::blocked_range<std::size_t>& block, const ElevationBand& band) {
+      tbb::blocked_range<std::size_t>(0, points.size, kGrain), ScannedBand{},
+      [&](const tbb::blocked_range<std::size_t>& block, const ScannedBand& band) {
         return merge(band, find_elevation_band(points.subspan(block.begin(), block.size()), usable));
       },
       merge);
 }
 
-/// Cells that hold `kReturnsPerCell` returns on the average of the band that the scan covers.
-DirectionGrid grid_for(const ElevationBand& band) {
+/// The share of a band of elevations in which returns lie: a scan may look to one side only, or see sky above all but a
+/// few trees. Told by a sample, in bins that are wider than the gaps between the rings of common sensors.
+double occupied_share(const PointPlanes& points, const UsableRange& usable, const ScannedBand& band) {
+  constexpr std::size_t kColumns = 32, kRows = 8, kSamples = 2048;
+  std::array<std::uint8_t, kColumns * kRows> occupied{};
+  const double low = std::sin(band.low_rad), high = std::sin(band.high_rad);
+  for (std::size_t k = 0; k < kSamples; ++k) {
+    const std::size_t i = spread_place(k, points.size);
+    const double x = points.x_m[i], y = points.y_m[i], z = points.z_m[i];
+    const double range_m = std::sqrt(x * x + y * y + z * z);
+    if (!is_usable(range_m, usable)) continue;
+    const double column = (std::atan2(y, x) / (2.0 * std::numbers::pi) + 0.5) * kColumns;
+    const double row = (z / range_m - low) / std::max(high - low, 1e-9) * kRows;
+    const auto bounded = [](double value, std::size_t count) {
+      return static_cast<std::size_t>(std::clamp(value, 0.0, static_cast<double>(count - 1)));
+    };
+    occupied[bounded(row, kRows) * kColumns + bounded(column, kColumns)] = 1;
+  }
+  const auto count = std::accumulate(occupied.begin(), occupied.end(), 0);
+  return count == 0 ? 1.0 : static_cast<double>(count) / occupied.size();
+}
+
+/// Cells that hold `kReturnsPerCell` returns on the average of where returns are.
+DirectionGrid grid_for(const ScannedBand& band, double occupied) {
   const double band_sr = 2.0 * std::numbers::pi * std::max(std::sin(band.high_rad) - std::sin(band.low_rad), 1e-4);
-  const double cell = std::sqrt(kReturnsPerCell * band_sr / static_cast<double>(band.count));
+  const double per_return_sr = band_sr / static_cast<double>(band.count);
+  const double cell = std::sqrt(per_return_sr * std::max(kReturnsPerCell * occupied, 1.0 / kMostCellsPerReturn));
   return DirectionGrid(band.low_rad, band.high_rad, std::clamp(cell, kLeastCell_rad, kMostCell_rad));
 }
 
@@ -148,9 +174,9 @@ class CellSort {
 PriorIndex PriorIndex::build(const PointCloud& points, const UsableRange& usable) {
   auto impl = std::make_unique<Impl>();
   impl->usable = usable;
-  const ElevationBand band = elevation_band_of(planes_of(points), usable);
+  const ScannedBand band = elevation_band_of(planes_of(points), usable);
   if (band.count > 0) {
-    impl->grid = grid_for(band);
+    impl->grid = grid_for(band, occupied_share(planes_of(points), usable, band));
     impl->returns = RawArray<Return>(band.count);
     impl->first = RawArray<std::uint32_t>(impl->grid.cells() + 1);
     impl->least_m = RawArray<float>(impl->grid.cells());

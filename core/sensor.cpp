@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/prior_index_impl.hpp"
+#include "core/spread_sample.hpp"
 
 namespace raywatch {
 namespace {
@@ -23,26 +24,39 @@ T median(std::vector<T> values) {
   return *middle;
 }
 
-/// The angular distances from one return to its neighbours on either side, and above and below: the nearest return in
-/// each quarter of the directions around it. Infinite where there is none.
+/// The axes of the plane that touches the unit sphere in a direction.
+struct TangentPlane {
+  explicit TangentPlane(const Eigen::Vector3d& direction) : axis(direction.normalized()) {
+    const Eigen::Vector2d horizontal = axis.head<2>();
+    const Eigen::Vector2d outward = horizontal.norm() > 0.0 ? horizontal.normalized() : Eigen::Vector2d::UnitX();
+    east = {-outward.y(), outward.x(), 0.0};
+    north = axis.cross(east);
+  }
+  Eigen::Vector3d axis, east, north;
+};
+
+/// The squared angular distances (tangents) from one return to its neighbours on either side, and above and below: the
+/// nearest return in each quarter of the directions around it. Infinite where there is none.
 struct Neighbours {
   double east = std::numeric_limits<double>::infinity();
   double west = east, north = east, south = east;
   std::size_t looked_at = 0;
 
   bool complete() const { return std::isfinite(std::max({east, west, north, south})); }
-  void offer(double azimuth_rad, double elevation_rad) {
-    const double distance = std::hypot(azimuth_rad, elevation_rad);
-    if (distance < 1e-6) return;  // the return itself, or a second echo of the same shot
-    double& nearest = std::abs(azimuth_rad) >= std::abs(elevation_rad) ? (azimuth_rad > 0.0 ? east : west)
-                                                                       : (elevation_rad > 0.0 ? north : south);
-    nearest = std::min(nearest, distance);
+  void offer(double eastward, double northward) {
+    constexpr double kSame_rad = 1e-6;  // the return itself, or a second echo of the same shot
+    const double squared = eastward * eastward + northward * northward;
+    if (squared < kSame_rad * kSame_rad) return;
+    double& nearest =
+        std::abs(eastward) >= std::abs(northward) ? (eastward > 0.0 ? east : west) : (northward > 0.0 ? north : south);
+    nearest = std::min(nearest, squared);
   }
 };
 
-Neighbours look_around(const PriorIndex::Impl& index, std::uint32_t center, double radius_rad) {
+Neighbours look_around(const PriorIndex::Impl& index, const Eigen::Vector3d& center_m, double radius_rad) {
   const DirectionGrid& grid = index.grid;
-  const Direction from = direction_of(index.returns[center]);
+  const Direction from = direction_of(center_m.x(), center_m.y(), center_m.z());
+  const TangentPlane plane(center_m);
   Neighbours neighbours;
   const std::size_t first_row = grid.row_of(from.elevation_rad - radius_rad);
   const std::size_t last_row = grid.row_of(from.elevation_rad + radius_rad);
@@ -56,9 +70,9 @@ Neighbours look_around(const PriorIndex::Impl& index, std::uint32_t center, doub
       const std::uint32_t cell = grid.first_cell(row) + static_cast<std::uint32_t>((c + columns) % columns);
       for (std::uint32_t i = index.first[cell]; i < index.first[cell + 1]; ++i) {
         ++neighbours.looked_at;
-        const Direction to = direction_of(index.returns[i]);
-        const double turn = std::remainder(to.azimuth_rad - from.azimuth_rad, 2.0 * std::numbers::pi);
-        neighbours.offer(turn * std::cos(from.elevation_rad), to.elevation_rad - from.elevation_rad);
+        const Eigen::Vector3d to_m(index.returns[i].x_m, index.returns[i].y_m, index.returns[i].z_m);
+        const double ahead_m = to_m.dot(plane.axis);
+        if (ahead_m > 0.0) neighbours.offer(to_m.dot(plane.east) / ahead_m, to_m.dot(plane.north) / ahead_m);
       }
     }
   }
@@ -70,15 +84,15 @@ std::optional<Eigen::Vector2d> angular_resolution(const PriorIndex::Impl& index)
   const std::size_t n = index.returns.size();
   const std::size_t samples = std::min(n, kSamples);
   for (std::size_t k = 0; k < samples; ++k) {
-    const auto center = static_cast<std::uint32_t>(k * n / samples);
+    const Return& center = index.returns[spread_place(k, n)];
     Neighbours neighbours;
     for (double radius = 2.0 * index.grid.cell_rad(); radius <= kWidestSearch_rad; radius *= 2.0) {
-      neighbours = look_around(index, center, radius);
+      neighbours = look_around(index, {center.x_m, center.y_m, center.z_m}, radius);
       if (neighbours.complete() || neighbours.looked_at > kReturnsAround) break;
     }
     if (!neighbours.complete()) continue;
-    azimuth.push_back(std::max(neighbours.east, neighbours.west));
-    elevation.push_back(std::max(neighbours.north, neighbours.south));
+    azimuth.push_back(std::sqrt(std::max(neighbours.east, neighbours.west)));
+    elevation.push_back(std::sqrt(std::max(neighbours.north, neighbours.south)));
   }
   if (azimuth.size() < 8) return std::nullopt;
   return Eigen::Vector2d(median(azimuth), median(elevation));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/changed_ground.hpp"
 #include "core/error.hpp"
 
 namespace raywatch {
@@ -48,14 +49,10 @@ class VolumeSum {
       }
     }
   }
-  VolumeFigure figure() const {
-    double pose_m6 = 0.0;
-    for (std::size_t e = 0; e < 2; ++e) {
-      for (std::size_t k = 0; k < leverages_[e].size(); ++k) {
-        pose_m6 += leverages_[e][k].variance(models_[e]->stations[k].uncertainty);
-      }
-    }
-    return {value_m3_, std::sqrt(random_m6_), std::sqrt(pose_m6)};
+  /// Without what the errors of the poses, as far as they are known, make of it.
+  VolumeFigure figure(const PoseErrors& poses) const {
+    const PoseLeverage leverage = poses.leverage_of(leverages_[0], leverages_[1]);
+    return {value_m3_ - poses.rise(leverage), std::sqrt(random_m6_), std::sqrt(poses.variance(leverage))};
   }
 
  private:
@@ -65,40 +62,28 @@ class VolumeSum {
   double random_m6_ = 0.0;
 };
 
-/// The heights between which the ground of a cell lies.
-struct Between {
-  double low_m;
-  double high_m;
-};
-
-Between ground_of(const ElevationCell& cell, const Prism& prism) {
-  const auto inside = [&](double height_m) { return std::clamp(height_m, prism.z_min_m, prism.z_max_m); };
-  if (cell.seen()) {
-    const double reach_m = 1.96 * cell.sigma_m;
-    return {inside(cell.height_m - reach_m), inside(cell.height_m + reach_m)};
-  }
-  return {prism.z_min_m, inside(cell.ceiling_m)};
-}
-
 /// One zone's figures while cells are added.
 class ZoneSum {
  public:
-  ZoneSum(const ElevationModel& before, const ElevationModel& after, const Prism& prism)
+  ZoneSum(const ElevationModel& before, const ElevationModel& after, const Prism& prism,
+          const GroundSteepness& steepness)
       : before_(before),
         after_(after),
         prism_(prism),
+        ground_(changed_ground(before, after)),
+        earlier_(ground_bounds(before, prism, steepness)),
+        later_(ground_bounds(after, prism, steepness)),
         cut_(before, after),
         fill_(before, after),
         changed_(before, after),
         net_(before, after) {}
 
-  /// @param beside whether the cell or one beside it surely changed.
-  void add(std::size_t cell, const DifferenceCell& difference, bool beside, double area_m2) {
+  void add(std::size_t cell, double area_m2) {
     sums_.area_m2 += area_m2;
-    if (difference.seen()) {
-      add_seen(cell, difference, beside, area_m2);
+    if (before_.cells[cell].seen() && after_.cells[cell].seen()) {
+      add_seen(cell, area_m2);
     } else {
-      const Between earlier = ground_of(before_.cells[cell], prism_), later = ground_of(after_.cells[cell], prism_);
+      const HeightBounds earlier = earlier_[cell], later = later_[cell];
       sums_.unseen += VolumeBounds{area_m2 * (later.low_m - earlier.high_m), area_m2 * (later.high_m - earlier.low_m)};
     }
   }
@@ -109,16 +94,16 @@ class ZoneSum {
       sums_.vertical.mean_m /= area_m2;
       sums_.normal.mean_m /= area_m2;
     }
-    sums_.cut = cut_.figure();
-    sums_.cut.value_m3 = std::abs(sums_.cut.value_m3);
-    sums_.fill = fill_.figure();
-    sums_.changed_net = changed_.figure();
-    sums_.net = net_.figure();
+    sums_.cut = cut_.figure(ground_.poses);
+    sums_.cut.value_m3 = 0.0 - sums_.cut.value_m3;
+    sums_.fill = fill_.figure(ground_.poses);
+    sums_.changed_net = changed_.figure(ground_.poses);
+    sums_.net = net_.figure(PoseErrors(before_, after_));
     return sums_;
   }
 
  private:
-  void add_seen(std::size_t cell, const DifferenceCell& difference, bool beside, double area_m2) {
+  void add_seen(std::size_t cell, double area_m2) {
     const double from_m = before_.cells[cell].height_m, to_m = after_.cells[cell].height_m;
     const double low_m = prism_.z_min_m, high_m = prism_.z_max_m;
     const VolumeSum::Part part{
@@ -128,10 +113,11 @@ class ZoneSum {
         .free_before = from_m > low_m && from_m<high_m, .free_after = to_m> low_m && to_m < high_m};
     sums_.seen_area_m2 += area_m2;
     net_.add(part);
-    if (!beside || part.rise_m == 0.0) return;
+    const ChangedCell& changed = ground_.cells[cell];
+    if (changed.sign == 0 || part.rise_m == 0.0) return;
     changed_.add(part);
-    (part.rise_m > 0.0 ? fill_ : cut_).add(part);
-    if (!difference.changed()) return;
+    (changed.sign > 0 ? fill_ : cut_).add(part);
+    if (!changed.surely) return;
     sums_.changed_area_m2 += area_m2;
     extend(sums_.vertical, part.rise_m, area_m2);
     extend(sums_.normal, part.rise_m / std::sqrt(1.0 + before_.cells[cell].slope.squaredNorm()), area_m2);
@@ -146,25 +132,11 @@ class ZoneSum {
   const ElevationModel& before_;
   const ElevationModel& after_;
   const Prism& prism_;
+  ChangedGround ground_;
+  std::vector<HeightBounds> earlier_, later_;
   VolumeSum cut_, fill_, changed_, net_;
   ZoneVolumes sums_;
 };
-
-/// One a cell: whether it or one of its eight neighbours surely changed.
-std::vector<std::uint8_t> beside_changes(const GridLayout& layout, std::span<const DifferenceCell> difference) {
-  std::vector<std::uint8_t> beside(difference.size(), 0);
-  const std::size_t columns = layout.columns, rows = layout.rows;
-  for (std::size_t cell = 0; cell < difference.size(); ++cell) {
-    if (!difference[cell].changed()) continue;
-    const std::size_t column = cell % columns, row = cell / columns;
-    for (std::size_t j = row - std::min<std::size_t>(row, 1); j <= std::min(row + 1, rows - 1); ++j) {
-      for (std::size_t i = column - std::min<std::size_t>(column, 1); i <= std::min(column + 1, columns - 1); ++i) {
-        beside[j * columns + i] = 1;
-      }
-    }
-  }
-  return beside;
-}
 
 void check_layouts(const ElevationModel& before, const ElevationModel& after) {
   if (!(before.layout == after.layout)) {
@@ -174,14 +146,13 @@ void check_layouts(const ElevationModel& before, const ElevationModel& after) {
 
 }  // namespace
 
-ZoneVolumes volumes_between(const ElevationModel& before, const ElevationModel& after, const Prism& prism) {
+ZoneVolumes volumes_between(const ElevationModel& before, const ElevationModel& after, const Prism& prism,
+                            const GroundSteepness& steepness) {
   check_layouts(before, after);
-  const std::vector<DifferenceCell> difference = difference_of(before, after);
-  const std::vector<std::uint8_t> beside = beside_changes(before.layout, difference);
-  ZoneSum sum(before, after, prism);
-  for (std::size_t cell = 0; cell < difference.size(); ++cell) {
+  ZoneSum sum(before, after, prism, steepness);
+  for (std::size_t cell = 0; cell < before.cells.size(); ++cell) {
     const double share = share_of_cell(prism, before.layout, cell);
-    if (share > 0.0) sum.add(cell, difference[cell], beside[cell] != 0, share * before.layout.cell_area_m2());
+    if (share > 0.0) sum.add(cell, share * before.layout.cell_area_m2());
   }
   return sum.result();
 }
@@ -198,7 +169,7 @@ FootprintVolume volume_over(const ElevationModel& before, const ElevationModel& 
     result.seen_area_m2 += area_m2;
     sum.add({.cell = cell, .area_m2 = area_m2, .rise_m = after.cells[cell].height_m - before.cells[cell].height_m});
   }
-  result.net = sum.figure();
+  result.net = sum.figure(PoseErrors(before, after));
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/elevation_model.hpp"
+#include "core/ground_bounds.hpp"
 #include "core/zone.hpp"
 
 namespace raywatch {
@@ -40,9 +41,9 @@ struct ChangeExtent {
 
 /// The volumes between two epochs in one zone.
 struct ZoneVolumes {
-  /// Over the cells that surely changed (|rise| > LoD95) and their eight neighbours, in which a change tapers off below
-  /// what can be told; each cell counts for cut or for fill by its own rise. Their
-  /// intervals, and that of `changed_net`, are somewhat too narrow: see tests/evaluate/VOLUMES.md.
+  /// Over the cells that surely changed and their eight neighbours, in which a change tapers off below what can be told
+  /// (`changed_ground`). They rest on the rest of the ground not having changed: what it shows of the errors of the
+  /// poses is taken out, so that these intervals are much narrower than that of `net`.
   VolumeFigure cut, fill;
   VolumeFigure changed_net;  ///< fill - cut, with what their errors have in common
   /// Over all cells seen in both epochs, changed or not: free of the bias that a threshold brings (Anderson 2019), but
@@ -55,8 +56,8 @@ struct ZoneVolumes {
   ChangeExtent normal;           ///< along the normal of the ground before
   /// The net of what was not seen in both epochs: each epoch's ground lies below what its rays passed and the zone's
   /// z_max, and above the zone's z_min, which the surveyor vouches for: no ray shows how deep the ground is where none
-  /// ended. Where one epoch saw a cell, its height counts there, with 1.96 standard errors but without the poses.
-  /// Nothing is interpolated.
+  /// ended. Where one epoch saw a cell, its height counts there with its error. Nothing is interpolated; see
+  /// `ground_bounds`, also for what a greatest slope of the ground adds.
   VolumeBounds unseen;
   /// The net of the whole zone: that of what was seen, with its interval, and the bounds of the rest.
   VolumeBounds whole() const { return {net.low_m3() + unseen.low_m3, net.high_m3() + unseen.high_m3}; }
@@ -73,9 +74,11 @@ struct ZoneVolumes {
 /// where T_ck and R_ck are the leverages of a station's pose (`leverage_of`): its error is the same for all of its
 /// returns, so that it is summed before it is squared. After Anderson, "Uncertainty in quantitative analyses of
 /// topographic change: error propagation and the role of thresholding", Earth Surface Processes and Landforms 44
-/// (2019), with the systematic term by station instead of one constant for the whole map.
+/// (2019), with the systematic term by station instead of one constant for the whole map. For cut, fill and
+/// `changed_net` the covariance of the poses is that which the unchanged ground leaves (`PoseErrors`).
 /// @throws InvalidInput when the models differ in their layout.
-ZoneVolumes volumes_between(const ElevationModel& before, const ElevationModel& after, const Prism& prism);
+ZoneVolumes volumes_between(const ElevationModel& before, const ElevationModel& after, const Prism& prism,
+                            const GroundSteepness& steepness = {});
 
 /// The net over given cells of the grid, such as the footprint of one change.
 struct FootprintVolume {

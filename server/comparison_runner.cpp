@@ -169,10 +169,9 @@ void ComparisonRunner::register_scan(Subject& subject, LoadedScan& scan, tbb::ta
 }
 
 ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const LoadedScan& scan) const {
-  const Payloads& payloads = store_.payloads();
   const Reference& reference = subject.comparison.reference;
   // Two scans that see equally far overlap nowhere when they are farther apart than this.
-  const double radius_m = 2.0 * reach_m(payloads.scan_panorama(subject.scan.payload));
+  const double radius_m = 2.0 * reach_m(*loader_.panorama(subject.scan));
   const ReferenceLimits limits{.radius_m = radius_m,
                                .contemporary_tolerance = subject.comparison.parameters.contemporary_tolerance,
                                .previous_limit = config_.previous_limit};
@@ -190,7 +189,7 @@ ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const 
     candidates.push_back(
         {.world_from_sensor = refined ? local_pose(offered, subject.site) : reported_local_pose(offered, subject.site),
          .captured_at = offered.captured_at,
-         .coverage = payloads.scan_panorama(offered.payload),
+         .coverage = loader_.panorama(offered),
          .required = is_explicit(reference),
          .refused = fits ? "" : "its registration is bad"});
   }

@@ -19,6 +19,8 @@
 #include "server/machine.hpp"
 #include "server/progress_board.hpp"
 #include "server/reference_resolver.hpp"
+#include "server/survey_thread.hpp"
+#include "server/version.hpp"
 #include "server/workers.hpp"
 #include "storage/baselines.hpp"
 #include "storage/comparisons.hpp"
@@ -48,8 +50,10 @@ bool all_ended(const std::vector<ComparisonRecord>& comparisons) {
 }
 
 /// Puts back what an earlier process started and did not end.
-std::uint64_t recover(Store& store) {
-  return store.write([](Transaction& transaction) { return requeue_started_jobs(transaction); });
+std::uint64_t recover(Store& store, Time now) {
+  return store.write([&](Transaction& transaction) {
+    return requeue_started_jobs(transaction) + requeue_running_runs(transaction, now);
+  });
 }
 
 }  // namespace
@@ -66,11 +70,15 @@ struct Daemon::Impl {
                now),
         runner(store, cache, progress,
                {.previous_limit = config.previous_limit, .choice = config.choice, .watch = config.watch}, now),
-        requeued(recover(store)),
+        requeued(recover(store, now())),
         workers(store, runner, signal,
                 {.workers = config.workers > 0 ? config.workers : cores(),
                  .compare_threads = config.compare_threads > 0 ? std::min(config.compare_threads, cores()) : cores()},
                 now),
+        schedule_clock(store),
+        survey_runner(store, cache, program_version(), now),
+        surveys(schedule_clock, survey_runner,
+                config.compare_threads > 0 ? std::min(config.compare_threads, cores()) : cores(), now),
         caretaker(store, {.low_disk_bytes = 2 * config.min_free_disk_bytes}),
         retention(store, config.retention, [this](ScanId scan) { cache.forget(scan); }),
         caretaker_thread(caretaker, retention, now),
@@ -83,7 +91,7 @@ struct Daemon::Impl {
           store, folder, [this](const Upload& upload) { return ingest_file(upload); }, now, folder_status));
     }
     for (const std::string& warning : store.open_report().warnings) spdlog::warn("the store: {}", warning);
-    if (requeued > 0) spdlog::info("{} comparisons were interrupted and start again", requeued);
+    if (requeued > 0) spdlog::info("{} comparisons and surveys were interrupted and start again", requeued);
     http.start();
   }
 
@@ -106,6 +114,9 @@ struct Daemon::Impl {
   ComparisonRunner runner;
   const std::uint64_t requeued;
   Workers workers;
+  ScheduleClock schedule_clock;
+  SurveyRunner survey_runner;
+  SurveyThread surveys;
   Caretaker caretaker;
   RetentionKeeper retention;
   CaretakerThread caretaker_thread;
@@ -206,12 +217,13 @@ DaemonStatus Daemon::Impl::status() const {
 StopOutcome Daemon::Impl::stop() {
   const auto deadline = std::chrono::steady_clock::now() + kStopPatience;
   workers.request_stop();
+  surveys.request_stop();
   deliverer.request_stop();
   signal.close();
   store.commits().close();  // the streams of events end
   folders.clear();
   http.stop();
-  if (!workers.wait_stopped(deadline)) return StopOutcome::comparisons_abandoned;
+  if (!workers.wait_stopped(deadline) || !surveys.wait_stopped(deadline)) return StopOutcome::comparisons_abandoned;
   return deliverer.wait_stopped(deadline) ? StopOutcome::clean : StopOutcome::deliveries_abandoned;
 }
 

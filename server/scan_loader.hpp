@@ -6,6 +6,7 @@
 
 #include "core/compare.hpp"
 #include "server/index_cache.hpp"
+#include "server/panorama_cache.hpp"
 #include "storage/scans.hpp"
 #include "storage/sites.hpp"
 #include "storage/store.hpp"
@@ -30,15 +31,18 @@ struct LoadedScan {
 /// Brings stored scans into memory, through the cache. Thread-safe.
 class ScanLoader {
  public:
-  ScanLoader(Store& store, IndexCache& cache) : store_(store), cache_(cache) {}
+  ScanLoader(Store& store, IndexCache& cache) : store_(store), cache_(cache), panoramas_(store.payloads()) {}
 
   /// Computes in `arena`; must not be called from inside it.
   LoadedScan load(const ScanRecord& scan, const Site& site, const CompareParameters& parameters,
                   tbb::task_arena& arena) const;
 
+  std::shared_ptr<const Panorama> panorama(const ScanRecord& scan) const { return panoramas_.get(scan); }
+
  private:
   Store& store_;
   IndexCache& cache_;
+  mutable PanoramaCache panoramas_;
 };
 
 }  // namespace raywatch

@@ -52,8 +52,7 @@ std::vector<std::string> registration_warnings(const ScanRecord& scan) {
 
 std::vector<ScanRecord> ScanRegistrar::anchors_of(const ScanRecord& scan, const Site& site,
                                                   const LoadedScan& loaded) const {
-  const Payloads& payloads = store_.payloads();
-  const double radius_m = 2.0 * reach_m(payloads.scan_panorama(scan.payload));
+  const double radius_m = 2.0 * reach_m(*loader_.panorama(scan));
   const std::vector<ScanRecord> offered = store_.read([&](const Snapshot& snapshot) {
     std::vector<ScanRecord> anchors;
     const Eigen::Vector3d& position_m = loaded.world_from_sensor.position_m;
@@ -68,7 +67,7 @@ std::vector<ScanRecord> ScanRegistrar::anchors_of(const ScanRecord& scan, const 
   for (const ScanRecord& anchor : offered) {
     candidates.push_back({.world_from_sensor = reported_local_pose(anchor, site),
                           .captured_at = anchor.captured_at,
-                          .coverage = payloads.scan_panorama(anchor.payload)});
+                          .coverage = loader_.panorama(anchor)});
   }
   const ChoiceParameters choice{.max_priors = config_.max_anchors};
   const std::vector<Eigen::Vector3d> sample_m = sample_world_points(

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/index_kernels.hpp"
 
 namespace raywatch {
 namespace {
@@ -87,6 +88,38 @@ Interval azimuth_arc(const std::vector<double>& azimuths_rad) {
   return arc;
 }
 
+struct SphericalDirection {
+  double azimuth_rad, elevation_rad;
+};
+
+/// Directions within `kDirectionError_rad` of a chunk's points.
+class ChunkDirections {
+ public:
+  ChunkDirections(std::span<const float> x_m, std::span<const float> y_m, std::span<const float> z_m)
+      : planes_{x_m.data(), y_m.data(), z_m.data(), x_m.size()},
+        ranges_m_(x_m.size()),
+        azimuths_rad_(x_m.size()),
+        elevations_rad_(x_m.size()) {
+    to_spherical(planes_, ranges_m_.data(), azimuths_rad_.data(), elevations_rad_.data());
+  }
+
+  double range_m(std::size_t i) const {
+    const double x = planes_.x_m[i], y = planes_.y_m[i], z = planes_.z_m[i];
+    return std::sqrt(x * x + y * y + z * z);
+  }
+  SphericalDirection at(std::size_t i, double range_m) const {
+    // Elsewhere squares leave the range of single precision.
+    constexpr double kLeast_m = 1e-9, kMost_m = 1e9;
+    if (range_m > kLeast_m && range_m < kMost_m) return {azimuths_rad_[i], elevations_rad_[i]};
+    const double x = planes_.x_m[i], y = planes_.y_m[i], z = planes_.z_m[i];
+    return {std::atan2(y, x), std::atan2(z, std::sqrt(x * x + y * y))};
+  }
+
+ private:
+  PointPlanes planes_;
+  std::vector<float> ranges_m_, azimuths_rad_, elevations_rad_;
+};
+
 /// Bounds are compared with angles that were computed another way: this is more than both round.
 constexpr double kRounding_rad = 1e-9;
 
@@ -103,25 +136,24 @@ bool arcs_meet(const ChunkBounds& bounds, double azimuth_rad, double half_width_
 
 std::optional<ChunkBounds> chunk_bounds(std::span<const float> x_m, std::span<const float> y_m,
                                         std::span<const float> z_m) {
+  const ChunkDirections directions(x_m, y_m, z_m);
   ChunkBounds bounds{.elevation_min_rad = kPi, .elevation_max_rad = -kPi, .range_min_m = HUGE_VAL, .range_max_m = 0.0};
   std::vector<double> azimuths_rad;
   azimuths_rad.reserve(x_m.size());
   for (std::size_t i = 0; i < x_m.size(); ++i) {
-    const double x = x_m[i], y = y_m[i], z = z_m[i];
-    const double horizontal_m = std::sqrt(x * x + y * y);
-    const double range_m = std::sqrt(x * x + y * y + z * z);
+    const double range_m = directions.range_m(i);
     if (!std::isfinite(range_m) || range_m == 0.0) continue;
-    const double elevation_rad = std::atan2(z, horizontal_m);
-    bounds.elevation_min_rad = std::min(bounds.elevation_min_rad, elevation_rad);
-    bounds.elevation_max_rad = std::max(bounds.elevation_max_rad, elevation_rad);
+    const SphericalDirection direction = directions.at(i, range_m);
+    bounds.elevation_min_rad = std::min(bounds.elevation_min_rad, direction.elevation_rad - kDirectionError_rad);
+    bounds.elevation_max_rad = std::max(bounds.elevation_max_rad, direction.elevation_rad + kDirectionError_rad);
     bounds.range_min_m = std::min(bounds.range_min_m, range_m);
     bounds.range_max_m = std::max(bounds.range_max_m, range_m);
-    azimuths_rad.push_back(std::atan2(y, x));
+    azimuths_rad.push_back(direction.azimuth_rad);
   }
   if (azimuths_rad.empty()) return std::nullopt;
   const Interval arc = azimuth_arc(azimuths_rad);
-  bounds.azimuth_min_rad = arc.min;
-  bounds.azimuth_max_rad = arc.max;
+  bounds.azimuth_min_rad = arc.min - kDirectionError_rad;
+  bounds.azimuth_max_rad = arc.max + kDirectionError_rad;
   return bounds;
 }
 

@@ -12,6 +12,8 @@
 #include "storage/data_dir.hpp"
 #include "storage/payload_rows.hpp"
 #include "storage/payloads_impl.hpp"
+#include "storage/survey_codec.hpp"
+#include "storage/surveys.hpp"
 
 namespace raywatch {
 namespace {
@@ -249,6 +251,26 @@ DeletionHold::~DeletionHold() {
         // It has no owner any more: the next start sweeps it.
       }
     }
+  });
+}
+
+PayloadRef put_survey(Payloads& payloads, SiteId site, Time captured_at, const SurveyResult& survey) {
+  EncodedPayload payload;
+  payload.kind = "survey";
+  for (std::vector<std::uint8_t>& block : encode_models(survey)) {
+    payload.chunks.push_back({std::nullopt, std::move(block)});
+  }
+  return put(payloads.impl(), {site, captured_at}, payload);
+}
+
+void read_models(Payloads& payloads, const PayloadRef& ref, SurveyResult& survey) {
+  ModelDecoder decoder;
+  read_payload(payloads.impl(), ref, [&](Database& database, const PayloadRow& row) {
+    require_kind(row, "survey");
+    const std::int64_t blocks =
+        for_each_chunk(database, ref, [&](std::span<const std::uint8_t> block) { decoder.add(block); });
+    if (blocks != row.chunks) throw CorruptData("blocks are missing");
+    decoder.finish(survey);
   });
 }
 

@@ -8,6 +8,7 @@
 #include "core/rule.hpp"
 #include "storage/columns.hpp"
 #include "storage/comparisons.hpp"
+#include "storage/epochs.hpp"
 #include "storage/scans.hpp"
 #include "storage/snapshot.hpp"
 #include "storage/storage_use.hpp"
@@ -15,11 +16,12 @@
 namespace raywatch {
 namespace {
 
-constexpr Names<Protection, 6> kProtections{{{Protection::pinned, "pinned"},
+constexpr Names<Protection, 7> kProtections{{{Protection::pinned, "pinned"},
                                              {Protection::baseline, "baseline"},
                                              {Protection::alert, "alert"},
                                              {Protection::evidence, "evidence"},
                                              {Protection::unfinished, "unfinished"},
+                                             {Protection::survey, "survey"},
                                              {Protection::anchor, "anchor"}}};
 
 using Protected = std::unordered_map<ScanId, Protection>;
@@ -159,6 +161,7 @@ std::unordered_map<ScanId, Protection> protected_scans(const Snapshot& snapshot,
       site);
   add_alerts(snapshot, site, all);
   add_unfinished(snapshot, site, all);
+  for (const ScanId scan : scans_that_surveys_need(snapshot, site)) all.emplace(scan, Protection::survey);
   return all;
 }
 

@@ -23,6 +23,7 @@ enum class Protection : std::uint8_t {
   alert,       ///< an alert that is not resolved came of it, or its track began or was last seen with it
   evidence,    ///< a prior in a comparison of such a scan
   unfinished,  ///< a comparison of it, or one that names it, is not finished
+  survey,      ///< an accepted epoch has it, or a survey that is to come or not finished needs it
   anchor,      ///< the poses of later scans of its place are refined against it
 };
 std::string_view to_string(Protection protection);

@@ -4,6 +4,7 @@
 
 #include "storage/baselines.hpp"
 #include "storage/columns.hpp"
+#include "storage/epochs.hpp"
 #include "storage/scan_rows.hpp"
 #include "storage/sensors.hpp"
 #include "storage/snapshot.hpp"
@@ -81,6 +82,7 @@ void require_deletable(const Snapshot& snapshot, const ScanRecord& scan) {
       "SELECT comparison FROM comparison_priors INDEXED BY comparison_priors_by_scan WHERE scan = ? LIMIT 1", scan.id);
   if (user) throw Conflict(name + " is a prior of comparison " + std::to_string(*user));
   if (is_in_baseline(snapshot, scan.id)) throw Conflict(name + " is part of the baseline of its site");
+  if (is_in_accepted_epoch(snapshot, scan.id)) throw Conflict(name + " is part of an accepted epoch of a survey");
 }
 
 void delete_comparison(Transaction& transaction, ComparisonId id) {

@@ -3,6 +3,7 @@
 #include "storage/delivery_schema.hpp"
 #include "storage/migrations.hpp"
 #include "storage/retention_schema.hpp"
+#include "storage/survey_schema.hpp"
 #include "storage/watch_schema.hpp"
 
 namespace raywatch {

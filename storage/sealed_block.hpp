@@ -23,7 +23,13 @@ namespace raywatch {
 // All numbers are little endian. How long the content is follows from kind, flags and elements, never from the frame,
 // so that a hostile block cannot ask for memory.
 
-enum class BlockKind : std::uint8_t { scan_points = 'S', point_classes = 'C', prior_points = 'P', panorama = 'V' };
+enum class BlockKind : std::uint8_t {
+  scan_points = 'S',
+  point_classes = 'C',
+  prior_points = 'P',
+  panorama = 'V',
+  survey_model = 'M'
+};
 
 struct BlockHeader {
   BlockKind kind = BlockKind::scan_points;

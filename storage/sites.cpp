@@ -65,11 +65,13 @@ bool has_places(const Snapshot& snapshot, SiteId id) {
 void delete_what_was_watched(Database& database, SiteId id) {
   for (const char* part : {"sight_runs WHERE track IN (SELECT id FROM tracks WHERE site = ?)",
                            "zone_coverage WHERE zone IN (SELECT id FROM zones WHERE site = ?)",
-                           "alert_steps WHERE alert IN (SELECT id FROM alerts WHERE site = ?)"}) {
+                           "alert_steps WHERE alert IN (SELECT id FROM alerts WHERE site = ?)",
+                           "survey_levels WHERE schedule IN (SELECT id FROM schedules WHERE site = ?)",
+                           "epoch_scans WHERE epoch IN (SELECT id FROM epochs WHERE site = ?)"}) {
     database.run(std::string("DELETE FROM ") + part, id);
   }
-  for (const char* table :
-       {"tracks", "watched_scans", "alerts", "silences", "rules", "zones", "baseline_entries", "baselines"}) {
+  for (const char* table : {"survey_figures", "surveys", "epochs", "survey_runs", "schedules", "tracks",
+                            "watched_scans", "alerts", "silences", "rules", "zones", "baseline_entries", "baselines"}) {
     database.run(std::string("DELETE FROM ") + table + " WHERE site = ?", id);
   }
 }

@@ -16,10 +16,10 @@ std::vector<std::int64_t> numbers(Statement& rows) {
 }
 
 std::vector<std::int64_t> owned_keys(Database& metadata, const std::string& file) {
-  Statement rows(
-      metadata,
-      "SELECT payload_key FROM scans INDEXED BY scans_by_payload WHERE payload_file = ?1 UNION "
-      "SELECT payload_key FROM comparisons INDEXED BY comparisons_by_payload WHERE payload_file = ?1 ORDER BY 1");
+  Statement rows(metadata,
+                 "SELECT payload_key FROM scans INDEXED BY scans_by_payload WHERE payload_file = ?1 UNION "
+                 "SELECT payload_key FROM comparisons INDEXED BY comparisons_by_payload WHERE payload_file = ?1 UNION "
+                 "SELECT payload_key FROM surveys INDEXED BY surveys_by_payload WHERE payload_file = ?1 ORDER BY 1");
   rows.bind(file);
   return numbers(rows);
 }
@@ -73,6 +73,7 @@ std::set<std::string> all_files(Database& metadata, const PayloadFiles& files) {
   std::set<std::string> all(on_disk.begin(), on_disk.end());
   add_referenced(metadata, "scans", all);
   add_referenced(metadata, "comparisons", all);
+  add_referenced(metadata, "surveys", all);
   return all;
 }
 

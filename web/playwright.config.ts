@@ -7,10 +7,12 @@ const chromium = {
     ...(process.getuid?.() === 0 ? ['--no-sandbox'] : []),
     '--disable-background-networking',
     '--disable-component-update',
-    '--disable-gpu',
     '--disable-quic',
     '--disable-sync',
+    // WebGL without a graphics card.
+    '--enable-unsafe-swiftshader',
     '--no-first-run',
+    '--use-angle=swiftshader',
   ],
 };
 

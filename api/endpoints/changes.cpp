@@ -15,7 +15,7 @@ bool parse_lasting(const std::string& name) {
   throw InvalidInput("must be previous or baseline");
 }
 
-Json list(const Snapshot& snapshot, const ChangeFilter& filter, const PageRequest& page) {
+JsonText list(const Snapshot& snapshot, const ChangeFilter& filter, const PageRequest& page) {
   return render_page(raywatch::list_changes(snapshot, filter, page),
                      [&](const ChangeRecord& change) { return render(snapshot, change); });
 }

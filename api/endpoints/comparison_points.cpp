@@ -126,7 +126,7 @@ PointSet gather(Call& call, const StoredComparison& stored, const PointRequest& 
   }
   if (request.frame == Frame::world) set.origin_m = origin_of(stored.site);
   if (request.frame == Frame::sensor) set.viewpoint = stored.scan.pose;
-  return request.voxel_m ? thinned(set, *request.voxel_m) : set;
+  return thinned(std::move(set), request);
 }
 
 std::string tag_of(const StoredComparison& stored, const PointRequest& request, const Classes& wanted) {

@@ -41,7 +41,7 @@ PointSet as_asked(const StoredScan& scan, PointCloud points, const PointRequest&
     set.viewpoint = scan.record.pose;
   }
   set.intensity = std::move(points.intensity);
-  return request.voxel_m ? thinned(set, *request.voxel_m) : set;
+  return thinned(std::move(set), request);
 }
 
 /// The file that comes back bit-exact when it is uploaded again.
@@ -66,7 +66,8 @@ HttpAnswer get_scan_points(Call& call) {
 
   PointCloud points = call.services.store.payloads().scan_points(scan.record.payload);
   const std::string name = "scan-" + std::to_string(scan.record.id.value);
-  const bool raw = request.frame == Frame::sensor && request.format == PointFormat::pcd && !request.voxel_m;
+  const bool raw =
+      request.frame == Frame::sensor && request.format == PointFormat::pcd && !request.voxel_m && !request.budget;
   HttpAnswer answer = raw ? raw_pcd_answer(std::move(points), scan.record.pose, name)
                           : point_answer(std::make_shared<const PointSet>(as_asked(scan, std::move(points), request)),
                                          request.format, name);

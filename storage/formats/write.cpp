@@ -11,7 +11,7 @@
 namespace raywatch {
 namespace {
 
-constexpr std::array<std::string_view, 4> kFormatNames = {"pcd", "ply", "csv", "bin"};
+constexpr std::array<std::string_view, 5> kFormatNames = {"pcd", "ply", "csv", "bin", "q16"};
 
 /// How the types of column (float, uint8, int32; in the order of the variant) are called in each format.
 struct TypeNames {
@@ -186,7 +186,7 @@ ShotGrid one_row(const PointTable& table) {
 PointFormat parse_point_format(std::string_view name) {
   const auto* found = std::ranges::find(kFormatNames, name);
   if (found != kFormatNames.end()) return static_cast<PointFormat>(found - kFormatNames.begin());
-  const std::string message = shown(name) + " is no format of points; known are pcd, ply, csv and bin";
+  const std::string message = shown(name) + " is no format of points; known are pcd, ply, csv, bin and q16";
   throw InvalidInput("format: " + message, {{"format", message}});
 }
 
@@ -197,6 +197,7 @@ std::string_view media_type(PointFormat format) {
     case PointFormat::pcd:
     case PointFormat::ply:
     case PointFormat::bin:
+    case PointFormat::q16:
       break;
   }
   return "application/octet-stream";
@@ -216,6 +217,9 @@ void write_points(std::ostream& stream, PointFormat format, const PointTable& ta
       break;
     case PointFormat::bin:
       write_bin(out, table);
+      break;
+    case PointFormat::q16:
+      write_quantised(out, table);
       break;
   }
   out.flush();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,12 +11,13 @@
 
 #include "core/point_cloud.hpp"
 #include "core/pose.hpp"
+#include "storage/formats/quantise.hpp"
 
 namespace raywatch {
 
-enum class PointFormat { pcd, ply, csv, bin };
+enum class PointFormat { pcd, ply, csv, bin, q16 };
 
-/// @throws InvalidInput naming the known ones, unless "pcd", "ply", "csv" or "bin".
+/// @throws InvalidInput naming the known ones, unless "pcd", "ply", "csv", "bin" or "q16".
 PointFormat parse_point_format(std::string_view name);
 std::string_view media_type(PointFormat format);
 
@@ -33,7 +35,8 @@ struct PointTable {
   std::vector<PointColumn> columns = {};
   std::size_t leading_columns = 0;  ///< of `columns`: how many stand before x, y, z (csv only)
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
-  Pose viewpoint = {};  ///< PCD's VIEWPOINT
+  Pose viewpoint = {};                            ///< PCD's VIEWPOINT
+  std::optional<Quantisation> quantisation = {};  ///< of the points that these are a part of (q16 only)
 };
 
 /// Writes the table.
@@ -42,6 +45,7 @@ struct PointTable {
 /// - csv: header line, then one row a point; numbers round-trip; a column of int32 prints -1 as empty
 /// - bin: little endian, "RWPB", u32 version = 1, u64 points, 3 f64 origin_m, u32 number of columns, for each column u8
 ///   type (0 f32, 1 u8, 2 i32), u8 length of the name, the name; then the planes x, y, z (f32) and that of each column
+/// - q16: see `write_quantised`
 /// @throws StorageError when the stream fails.
 void write_points(std::ostream& out, PointFormat format, const PointTable& table);
 

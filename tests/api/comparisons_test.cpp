@@ -105,6 +105,10 @@ TEST_CASE("the points of a comparison have their classes, those of the priors to
   while (std::getline(world, line)) CHECK(std::stod(line) == doctest::Approx(95.5));
 
   CHECK_EQ(count_by(api.get(target + "&class=removed,added&voxel_m=5").body, "class").size(), 1);
+  const std::string base = target.substr(0, target.find('?'));
+  const std::string quantised = api.get(base + "?format=q16&class=removed").body;
+  REQUIRE_EQ(quantised.size(), 96 + box_points() * 8);
+  for (std::size_t at = 96 + 6; at < quantised.size(); at += 8) CHECK_EQ(quantised[at], 2);
   const Reply wrong = api.get(target + "&class=removed,gone");
   CHECK_EQ(wrong.status, 422);
   CHECK_NE(wrong.complaint_about("class"), "");

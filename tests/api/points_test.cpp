@@ -61,6 +61,26 @@ BinPoints decode_bin(const std::string& bytes) {
   return points;
 }
 
+/// "q16" as the contract describes it.
+struct QuantisedPoints {
+  std::uint64_t count = 0, total = 0, first = 0;
+  std::array<double, 3> origin_m{}, step_m{};
+  std::string records;  ///< eight bytes a point
+};
+
+QuantisedPoints decode_q16(const std::string& bytes) {
+  REQUIRE(bytes.starts_with("RWPQ"));
+  std::size_t at = 4;
+  CHECK_EQ(take<std::uint32_t>(bytes, at), 1);
+  QuantisedPoints points;
+  for (auto* number : {&points.count, &points.total, &points.first}) *number = take<std::uint64_t>(bytes, at);
+  for (double& value : points.origin_m) value = take<double>(bytes, at);
+  for (double& value : points.step_m) value = take<double>(bytes, at);
+  points.records = bytes.substr(at + 16);
+  CHECK_EQ(points.records.size(), points.count * 8);
+  return points;
+}
+
 std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
   std::vector<std::vector<std::string>> rows;
   std::istringstream lines(csv);
@@ -154,6 +174,41 @@ TEST_CASE("thinning keeps one measured point a voxel") {
   }
 }
 
+TEST_CASE("a budget thins evenly, and what is asked for later adds to it") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const std::string target = points_target(api.upload(0)) + "?format=q16";
+  const QuantisedPoints all = decode_q16(api.get(target).body);
+  CHECK_EQ(all.count, wall_points({}).size());
+  const QuantisedPoints some = decode_q16(api.get(target + "&budget=100").body);
+  const QuantisedPoints more = decode_q16(api.get(target + "&budget=150&skip=100").body);
+  CHECK_EQ(some.count, 100);
+  CHECK_EQ(more.count, 150);
+  CHECK_EQ(more.first, 100);
+  CHECK_EQ(more.total, all.count);
+  CHECK_EQ(some.origin_m, all.origin_m);
+  CHECK_EQ(more.step_m, all.step_m);
+  CHECK_EQ(some.records + more.records, all.records.substr(0, 250 * 8));
+  CHECK_EQ(decode_q16(api.get(target + "&skip=1000000000").body).count, 0);
+  // Other formats keep their exact coordinates.
+  const BinPoints exact = decode_bin(api.get(points_target(api.upload(1)) + "?format=bin&budget=100").body);
+  CHECK_EQ(exact.count, 100);
+  CHECK_LE(std::abs(exact.y_m[0] - static_cast<float>(some.origin_m[1])), some.step_m[1] * 65535.0);
+}
+
+TEST_CASE("a budget that is none is refused by name") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const std::string target = points_target(api.upload(0)) + "?format=q16";
+  for (const char* wrong : {"0", "-1", "many", "10000001", "1e3", "99999999999999999999"}) {
+    CHECK_NE(api.get(target + "&budget=" + wrong).complaint_about("budget"), "");
+  }
+  for (const char* wrong : {"-1", "4294967296", ""}) {
+    CHECK_NE(api.get(target + "&skip=" + wrong).complaint_about("skip"), "");
+  }
+  CHECK_NE(api.get(points_target(api.upload(1)) + "?format=csv&skip=5").complaint_about("skip"), "");
+}
+
 TEST_CASE("points that are not finite keep their places in the raw observation") {
   ApiFixture api;
   api.make_site_and_sensor();
@@ -174,8 +229,9 @@ TEST_CASE("points are tagged by what they are and how they were asked for") {
   api.make_site_and_sensor();
   const std::string target = points_target(api.upload(0));
   std::set<std::string> tags;
-  const std::vector<std::string> queries = {"?format=pcd", "?format=csv", "?format=csv&frame=world",
-                                            "?format=csv&voxel_m=1", "?format=csv&voxel_m=2"};
+  const std::vector<std::string> queries = {"?format=pcd",           "?format=csv",           "?format=csv&frame=world",
+                                            "?format=csv&voxel_m=1", "?format=csv&voxel_m=2", "?format=q16",
+                                            "?format=q16&budget=9",  "?format=q16&skip=9"};
   for (const std::string& query : queries) {
     const Reply reply = api.get(target + query);
     tags.insert(reply.header("ETag"));

@@ -30,7 +30,7 @@ PointCloud arc(const Eigen::Vector3d& position_m, double from_deg, double to_deg
 PriorCandidate candidate(const Eigen::Vector3d& position_m, double from_deg, double to_deg, Duration age) {
   return {.world_from_sensor = {Eigen::Quaterniond::Identity(), position_m},
           .captured_at = kNow - age,
-          .coverage = make_panorama(arc(position_m, from_deg, to_deg), {})};
+          .coverage = std::make_shared<const Panorama>(make_panorama(arc(position_m, from_deg, to_deg), {}))};
 }
 
 std::vector<CandidateAssessment> choose(const std::vector<PriorCandidate>& candidates, std::size_t limit = 4) {

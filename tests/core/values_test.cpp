@@ -66,11 +66,14 @@ TEST_CASE("a panorama covers what lies before the farthest return of a direction
   }
   const Panorama panorama = make_panorama(wall, {});
   const Pose sensor_from_world;
-  CHECK(covers(panorama, sensor_from_world, {5.0, 0.1, 0.1}));
-  CHECK(covers(panorama, sensor_from_world, {10.0, 0.1, 0.1}));
-  CHECK_FALSE(covers(panorama, sensor_from_world, {12.0, 0.1, 0.1}));
-  CHECK_FALSE(covers(panorama, sensor_from_world, {-5.0, 0.1, 0.1}));
-  CHECK_FALSE(covers(panorama, sensor_from_world, {0.1, 0.1, 8.0}));
+  const auto covers = [&](const Eigen::Vector3d& point_m) {
+    return covered(panorama, sensor_from_world, {&point_m, 1}).front() == 1;
+  };
+  CHECK(covers({5.0, 0.1, 0.1}));
+  CHECK(covers({10.0, 0.1, 0.1}));
+  CHECK_FALSE(covers({12.0, 0.1, 0.1}));
+  CHECK_FALSE(covers({-5.0, 0.1, 0.1}));
+  CHECK_FALSE(covers({0.1, 0.1, 8.0}));
   CHECK(panorama_from_bytes(to_bytes(panorama)).farthest == panorama.farthest);
   CHECK_THROWS_AS(panorama_from_bytes(std::vector<std::uint8_t>(17)), CorruptData);
 }
@@ -81,7 +84,8 @@ TEST_CASE("unusable returns cover nothing") {
   cloud.push_back(std::nanf(""), 0.0f, 1.0f);
   cloud.push_back(500.0f, 0.0f, 0.0f);
   const Panorama panorama = make_panorama(cloud, {.max_m = 100.0});
-  CHECK_FALSE(covers(panorama, Pose{}, {1.0, 0.0, 0.0}));
+  const Eigen::Vector3d ahead_m(1.0, 0.0, 0.0);
+  CHECK(covered(panorama, Pose{}, {&ahead_m, 1}).front() == 0);
 }
 
 TEST_CASE("the box around a turned box of points has its size and direction, longest side first") {

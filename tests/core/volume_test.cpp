@@ -76,6 +76,68 @@ TEST_CASE("a change below the level of detection is no cut or fill, but counts f
   CHECK(volumes.net.value_m3 == doctest::Approx(5.0));
 }
 
+TEST_CASE("a cell beside a change counts by the sign of the change, not by that of its own noise") {
+  const ElevationModel before = flat(0.0, 0.02);
+  ElevationModel after = flat(0.0, 0.02);
+  for (std::size_t row = 0; row < 10; ++row) {
+    after.cells[10 * row].height_m = -1.0;      // fell
+    after.cells[10 * row + 1].height_m = 0.02;  // beside it: noise upwards
+    after.cells[10 * row + 9].height_m = 1.0;   // rose
+  }
+  const ZoneVolumes volumes = volumes_between(before, after, box_zone(0.0, 10.0));
+  CHECK(volumes.cut.value_m3 == doctest::Approx(10.0 - 0.2));
+  CHECK(volumes.fill.value_m3 == doctest::Approx(10.0));
+}
+
+TEST_CASE("what unchanged ground shows of the errors of the poses is taken out of cut and fill, and left in the net") {
+  // The later pose is 2 cm too high and tilted: everything seems to have risen, and the ground beside a fall, too.
+  const PoseUncertainty uncertainty{.position_m = 0.02, .angle_rad = 1e-3};
+  const ElevationModel before = flat(0.0, 0.003, uncertainty);
+  ElevationModel after = flat(0.0, 0.003, uncertainty);
+  for (std::size_t cell = 0; cell < 100; ++cell) {
+    after.cells[cell].height_m = 0.02 + 1e-3 * (after.layout.center_m(cell).x() - 5.0);
+    if (cell % 10 == 4) after.cells[cell].height_m -= 3.0;
+  }
+  const ZoneVolumes volumes = volumes_between(before, after, box_zone(0.0, 10.0));
+  CHECK(volumes.cut.value_m3 == doctest::Approx(30.0).epsilon(2e-3));
+  CHECK(std::abs(volumes.fill.value_m3) < 0.02);
+  CHECK(volumes.cut.pose_sigma_m3 < 0.05);
+  CHECK(std::abs(volumes.cut.value_m3 - 30.0) < 1.96 * volumes.cut.sigma_m3());
+  CHECK(volumes.net.value_m3 == doctest::Approx(2.0 - 30.0));
+  CHECK(volumes.net.pose_sigma_m3 > 100.0 * 0.02);
+}
+
+TEST_CASE("poses that are taken as exact explain nothing") {
+  const ElevationModel before = flat(0.0, 0.02);
+  ElevationModel after = flat(0.01, 0.02);
+  for (std::size_t i = 0; i < 10; ++i) after.cells[i].height_m = -2.0;
+  const ZoneVolumes volumes = volumes_between(before, after, box_zone(0.0, 10.0));
+  CHECK(volumes.cut.value_m3 == doctest::Approx(20.0 - 0.1));
+  CHECK(volumes.cut.pose_sigma_m3 == 0.0);
+}
+
+TEST_CASE("a stated greatest slope of the ground bounds what was not seen by what was seen around it") {
+  ElevationModel before = flat(1.0), after = flat(1.0);
+  hide(after, 44, 9.0);  // beside seen cells at 1 m
+  const ZoneVolumes volumes = volumes_between(before, after, box_zone(0.0, 10.0), {.greatest_slope = 2.0});
+  CHECK(volumes.unseen.low_m3 == doctest::Approx(-2.0));
+  CHECK(volumes.unseen.high_m3 == doctest::Approx(2.0));
+  // Two cells away from anything seen: twice as much, but never beyond what the rays show.
+  for (const std::size_t cell : {33, 34, 35, 43, 45, 53, 54, 55}) hide(after, cell, 2.5);
+  const std::vector<HeightBounds> bounds = ground_bounds(after, box_zone(0.0, 10.0), {.greatest_slope = 2.0});
+  CHECK(bounds[44].low_m == doctest::Approx(1.0 - 4.0));
+  CHECK(bounds[44].high_m == doctest::Approx(2.5 + 2.0));
+  CHECK(bounds[43].low_m == doctest::Approx(1.0 - 2.0));
+  CHECK(bounds[43].high_m == doctest::Approx(2.5));
+  CHECK_THROWS_AS(ground_bounds(after, box_zone(0.0, 10.0), {.greatest_slope = 0.0}), InvalidInput);
+}
+
+TEST_CASE("the bounds of a seen cell have the errors of the poses in them") {
+  const ElevationModel model = flat(1.0, 0.03, {.position_m = 0.04, .angle_rad = 0.0});
+  const HeightBounds bounds = ground_bounds(model, box_zone(0.0, 10.0), {})[0];
+  CHECK(bounds.high_m - bounds.low_m == doctest::Approx(2.0 * 1.96 * 0.05));
+}
+
 TEST_CASE("what was not seen is bounded by the rays above and by the zone below, and never guessed") {
   ElevationModel before = flat(1.0), after = flat(1.0);
   hide(before, 0, 3.0);                                     // seen afterwards at 1 m

@@ -101,6 +101,7 @@ Profile profile_of(simulator::Family family) {
     case simulator::Family::stream:
       return Profile::outdoor;
     case simulator::Family::mine:
+    case simulator::Family::pit:
       break;
   }
   return Profile::survey;

@@ -88,6 +88,8 @@ int main(int argc, char** argv) {
   app.add_option("--position-m", survey.registration.position_sigma_m, "Registration error of each axis")
       ->capture_default_str();
   app.add_option("--angle-rad", survey.registration.angle_sigma_rad, "The same about each axis")->capture_default_str();
+  app.add_option("--greatest-slope", survey.steepness.greatest_slope, "Stated of the ground; rise over run")
+      ->check(CLI::Range(0.1, 100.0));
   CLI11_PARSE(app, argc, argv);
   std::vector<VolumeCase> cases(seeds);
   tbb::parallel_for(std::size_t{0}, seeds, [&](std::size_t i) { cases[i] = make_volume_case(i + 1, survey); });

@@ -103,7 +103,7 @@ VolumeCase make_volume_case(std::uint64_t seed, const VolumeSurvey& survey) {
   const ElevationModel earlier = Night(before, poses, survey, random).model(survey);
   const ElevationModel later = Night(after, poses, survey, random).model(survey);
   VolumeCase result;
-  result.volumes = volumes_between(earlier, later, zone());
+  result.volumes = volumes_between(earlier, later, zone(), survey.steepness);
   const Eigen::Vector2d half_m = Eigen::Vector2d::Constant(0.5 * survey.cell_m);
   for (std::size_t cell = 0; cell < earlier.cells.size(); ++cell) {
     const Eigen::Vector2d center_m = earlier.layout.center_m(cell);

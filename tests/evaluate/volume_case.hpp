@@ -14,6 +14,7 @@ struct VolumeSurvey {
   std::uint32_t azimuth_steps = 320;
   std::uint32_t elevation_steps = 300;
   double range_noise_m = 0.02;
+  GroundSteepness steepness = {};  ///< what the survey states of the ground
   simulator::RegistrationError registration{.position_sigma_m = 0.01, .angle_sigma_rad = 0.002 * 0.017453292519943295};
 };
 

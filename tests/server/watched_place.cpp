@@ -2,10 +2,8 @@
 
 #include <algorithm>
 
-#include "core/panorama.hpp"
 #include "core/profile.hpp"
 #include "storage/events.hpp"
-#include "storage/payloads.hpp"
 #include "tests/simulator/simulated_scan.hpp"
 #include "tests/simulator/wall_and_box.hpp"
 
@@ -40,96 +38,45 @@ CompareParameters parameters() {
 
 }  // namespace
 
-WatchedPlace::WatchedPlace(const WatchConfig& watch)
-    : store_({.data_dir = folder_.path()}),
-      runner_(store_, cache_, progress_, {.previous_limit = std::chrono::hours(24), .watch = watch},
-              [this] { return now(); }) {
-  site_ = store_.write([&](Transaction& transaction) {
-    const SiteId site =
-        insert_site(transaction, {.name = "yard", .time_zone = "UTC", .origin_m = Eigen::Vector3d::Zero()}, now()).id;
-    insert_rule(transaction, default_rule(site, Profile::indoor), now());
-    return site;
-  });
-}
-
-Time WatchedPlace::now() const { return parse_rfc3339("2026-03-01T08:00:00Z") + std::chrono::minutes(minute_); }
-
-SensorId WatchedPlace::sensor_named(const std::string& name) {
-  return store_.write([&](Transaction& transaction) {
-    if (const auto sensor = find_sensor(transaction, name)) return sensor->id;
-    return insert_sensor(transaction, {.name = name, .site = site_}, now()).id;
-  });
-}
+WatchedPlace::WatchedPlace(const WatchConfig& watch) : watched_({.watch = watch, .parameters = parameters()}) {}
 
 ScanId WatchedPlace::take(const WatchedScene& scene, const std::string& sensor) {
   const ScanId id = take_at({}, scene, sensor);
-  ++minute_;
+  watched_.set_now(now() + std::chrono::minutes(1));
   return id;
 }
 
 ScanId WatchedPlace::take_at(Duration offset, const WatchedScene& scene, const std::string& sensor) {
-  const PointCloud points = points_of(scene, ++number_);
-  ScanRecord record{.site = site_, .sensor = sensor_named(sensor)};
-  record.captured_at = now() + offset;
-  record.received_at = now();
-  record.points = points.size();
-  record.sha256 = std::to_string(number_);
-  record.estimated = estimate_sensor(points);
-  record.payload = store_.payloads().put_scan(site_, record.captured_at, points, make_panorama(points, UsableRange{}));
-  const ScanId id = store_.write([&](Transaction& transaction) {
-    const ScanId scan = insert_scan(transaction, record).id;
-    insert_comparison(transaction, scan, PreviousReference{}, parameters(), now());
-    insert_comparison(transaction, scan, BaselineReference{}, parameters(), now(), Watching::yes);
-    return scan;
-  });
-  run_jobs();
-  return id;
-}
-
-void WatchedPlace::run_jobs() {
-  for (;;) {
-    const auto job = store_.write([&](Transaction& transaction) { return start_job(transaction, site_); });
-    if (!job) return;
-    runner_.run(*job, arena_);
-  }
-}
-
-std::vector<TrackRecord> WatchedPlace::tracks() const {
-  auto page = store_.read([&](const Snapshot& s) { return list_tracks(s, {.site = site_}, {.limit = 1000}); });
-  std::ranges::reverse(page.items);
-  return std::move(page.items);
-}
-
-std::vector<AlertRecord> WatchedPlace::alerts() const {
-  auto page = store_.read([&](const Snapshot& s) { return list_alerts(s, {.site = site_}, {.limit = 1000}); });
-  std::ranges::reverse(page.items);
-  return std::move(page.items);
+  return watched_.put({.sensor = sensor,
+                       .points = points_of(scene, ++number_),
+                       .world_from_sensor = {},
+                       .captured_at = now() + offset});
 }
 
 std::vector<BaselineEntry> WatchedPlace::baseline() const {
-  return store_.read([&](const Snapshot& s) -> std::vector<BaselineEntry> {
-    const auto latest = latest_baseline(s, site_);
+  return store().read([&](const Snapshot& s) -> std::vector<BaselineEntry> {
+    const auto latest = latest_baseline(s, site());
     if (!latest) return {};
-    return baseline_entries(s, site_, latest->version);
+    return baseline_entries(s, site(), latest->version);
   });
 }
 
 std::vector<std::string> WatchedPlace::events() const {
   std::vector<std::string> types;
-  for (const Event& event : store_.read([&](const Snapshot& s) { return events_after(s, {}, site_, 100'000); })) {
+  for (const Event& event : store().read([&](const Snapshot& s) { return events_after(s, {}, site(), 100'000); })) {
     types.push_back(event.type);
   }
   return types;
 }
 
 WatchRole WatchedPlace::role(ScanId scan) const {
-  return store_.read([&](const Snapshot& s) { return find_watched_scan(s, scan).value().role; });
+  return store().read([&](const Snapshot& s) { return find_watched_scan(s, scan).value().role; });
 }
 
 std::vector<ChangeRecord> WatchedPlace::watching_changes() const {
-  return store_
+  return store()
       .read([&](const Snapshot& s) {
-        return list_changes(s, {.site = site_, .watching = true}, {.limit = 1000, .cursor = {}});
+        return list_changes(s, {.site = site(), .watching = true}, {.limit = 1000, .cursor = {}});
       })
       .items;
 }

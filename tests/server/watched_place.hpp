@@ -1,19 +1,14 @@
 #pragma once
 
-#include <tbb/task_arena.h>
-
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "server/comparison_runner.hpp"
-#include "storage/alerts.hpp"
 #include "storage/baselines.hpp"
 #include "storage/rules.hpp"
 #include "storage/sensors.hpp"
-#include "storage/tracks.hpp"
 #include "storage/zones.hpp"
-#include "tests/support/temp_dir.hpp"
+#include "tests/server/watched_site.hpp"
 
 namespace raywatch {
 
@@ -24,7 +19,7 @@ struct WatchedScene {
   bool screen = false;               ///< a board 1.2 m wide and high, at x = 2.5 m, straight ahead
 };
 
-/// A store with the site "yard", and a runner that watches it, one scan a minute.
+/// A watched site, one scan a minute.
 class WatchedPlace {
  public:
   explicit WatchedPlace(const WatchConfig& watch = {});
@@ -37,29 +32,21 @@ class WatchedPlace {
     for (int i = 0; i < 3; ++i) take();
   }
 
-  std::vector<TrackRecord> tracks() const;  ///< oldest first
-  std::vector<AlertRecord> alerts() const;  ///< oldest first
+  std::vector<TrackRecord> tracks() const { return watched_.tracks(); }  ///< oldest first
+  std::vector<AlertRecord> alerts() const { return watched_.alerts(); }  ///< oldest first
   std::vector<BaselineEntry> baseline() const;
   std::vector<std::string> events() const;  ///< their types
   WatchRole role(ScanId scan) const;
   std::vector<ChangeRecord> watching_changes() const;  ///< newest first
 
-  Store& store() { return store_; }
-  SiteId site() const { return site_; }
-  Time now() const;
+  Store& store() { return watched_.store(); }
+  SiteId site() const { return watched_.id(); }
+  Time now() const { return watched_.now(); }
 
  private:
-  SensorId sensor_named(const std::string& name);
-  void run_jobs();
+  const Store& store() const { return watched_.store(); }
 
-  TempDir folder_;
-  Store store_;
-  IndexCache cache_{1 << 28};
-  ProgressBoard progress_;
-  ComparisonRunner runner_;
-  tbb::task_arena arena_{2};
-  SiteId site_;
-  int minute_ = 0;
+  WatchedSite watched_;
   int number_ = 0;
 };
 

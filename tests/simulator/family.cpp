@@ -19,6 +19,8 @@ std::string_view to_string(Family family) {
       return "yard";
     case Family::mine:
       return "mine";
+    case Family::pit:
+      return "pit";
     case Family::stream:
       return "stream";
   }
@@ -46,6 +48,8 @@ Timeline make_timeline(Family family, const FamilyOptions& options) {
       return yard_timeline(options, {});
     case Family::mine:
       return mine_timeline(options);
+    case Family::pit:
+      return pit_timeline(options);
     case Family::stream:
       return yard_timeline(options, {.sensors = 1, .quiet_rounds = 4, .rounds = 16});
   }

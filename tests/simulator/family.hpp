@@ -15,11 +15,13 @@ namespace raywatch::simulator {
 /// - carpark: cars are moved, leave and arrive; 64 rings; three poses
 /// - yard: two fixed sensors; a bag is left, a crate removed, a person passes; fence, trees in the wind; 64 rings
 /// - mine: a bench is blasted, the rock dug away; a tripod scanner on two stations, one night apart
+/// - pit: the same pit seen from the wall opposite the bench by two light scanners, night after night; with the true
+///   heights of the ground, so that volumes can be checked
 /// - stream: the yard with one sensor, in which at first nothing happens, for demonstrations
-enum class Family { sim, lab, carpark, yard, mine, stream };
+enum class Family { sim, lab, carpark, yard, mine, pit, stream };
 
-inline constexpr Family kFamilies[] = {Family::sim,  Family::lab,  Family::carpark,
-                                       Family::yard, Family::mine, Family::stream};
+inline constexpr Family kFamilies[] = {Family::sim,  Family::lab, Family::carpark, Family::yard,
+                                       Family::mine, Family::pit, Family::stream};
 
 std::string_view to_string(Family family);
 /// @throws InvalidInput naming the known ones.

@@ -76,6 +76,27 @@ Nights dig(Timeline& timeline, const Pit& pit, std::uint32_t count) {
   return nights;
 }
 
+void add_earthworks(Timeline& timeline, const Nights& nights) {
+  for (std::size_t i = 1; i < nights.ground.size(); ++i) {
+    timeline.earthworks.push_back(volume_change(*nights.ground[i - 1], *nights.ground[i]));
+  }
+}
+
+/// One scan a station and night, in turn.
+void append_scans(Timeline& timeline, const FamilyOptions& options, const std::vector<Lookout>& views,
+                  const Nights& nights, std::uint32_t scans) {
+  for (std::uint32_t i = 0; i < scans; ++i) {
+    const std::uint32_t night = i / kStations;
+    const Duration since_start =
+        std::chrono::hours(24) * night + options.interval.value_or(std::chrono::minutes(20)) * (i % kStations);
+    append_scan(timeline, options,
+                {.lookout = views[i % kStations],
+                 .captured_at = start_of(options) + since_start,
+                 .present = nights.present[night],
+                 .passing = {nights.terrain[night]}});
+  }
+}
+
 /// Trucks stand at another place every night.
 void park_trucks(Timeline& timeline, RandomSequence& random, FloorPlan& floor, Nights& nights, int trucks) {
   for (std::size_t night = 0; night < nights.ground.size(); ++night) {
@@ -89,6 +110,45 @@ void park_trucks(Timeline& timeline, RandomSequence& random, FloorPlan& floor, N
   }
 }
 
+// The pit from the wall opposite.
+
+constexpr std::uint32_t kNights = 7;
+constexpr double kStation_m = 24.0;  ///< height above the pit's floor
+const Eigen::AlignedBox2d kArea_m(Eigen::Vector2d(-26.0, -80.0), Eigen::Vector2d(30.0, 80.0));
+constexpr double kCell_m = 2.0;
+
+Scanner light_scanner(const FamilyOptions& options) {
+  Scanner scanner;
+  const std::uint32_t columns = steps_at_density(320, options.density), rows = steps_at_density(300, options.density);
+  for (std::uint32_t i = 0; i < columns; ++i) scanner.azimuths_rad.push_back(radians(-75.0 + 150.0 * i / columns));
+  for (std::uint32_t i = 0; i < rows; ++i) scanner.elevations_rad.push_back(radians(-42.0 + 45.0 * i / rows));
+  scanner.max_range_m = 600.0;
+  scanner.errors.range_noise_m = 0.02;
+  return scanner;
+}
+
+std::vector<Lookout> lookouts(RandomSequence& random) {
+  std::vector<Lookout> views;
+  for (const double y_m : {-45.0, 45.0}) {
+    const Eigen::Vector3d at_m(random.in({-75.0, -60.0}), y_m + random.in({-15.0, 15.0}), kStation_m);
+    views.push_back(
+        {.sensor = "pit-" + std::to_string(views.size() + 1), .nominal_world_from_sensor = {.position_m = at_m}});
+  }
+  return views;
+}
+
+std::vector<double> mean_heights_m(const HeightField& ground, const TrueGround& grid) {
+  std::vector<double> heights_m;
+  for (std::uint32_t row = 0; row < grid.rows; ++row) {
+    for (std::uint32_t column = 0; column < grid.columns; ++column) {
+      const Eigen::Vector2d low_m = grid.corner_m + grid.cell_m * Eigen::Vector2d(column, row);
+      const Eigen::Vector2d high_m = low_m + Eigen::Vector2d::Constant(grid.cell_m);
+      heights_m.push_back(mean_height_m(ground, {low_m, high_m}));
+    }
+  }
+  return heights_m;
+}
+
 }  // namespace
 
 Timeline mine_timeline(const FamilyOptions& options) {
@@ -97,9 +157,7 @@ Timeline mine_timeline(const FamilyOptions& options) {
   timeline.scanners = {survey_scanner(options)};
   const std::uint32_t scans = options.scans.value_or(2 * kStations);
   Nights nights = dig(timeline, Pit(random.seed()), (scans + kStations - 1) / kStations);
-  for (std::size_t i = 1; i < nights.ground.size(); ++i) {
-    timeline.earthworks.push_back(volume_change(*nights.ground[i - 1], *nights.ground[i]));
-  }
+  add_earthworks(timeline, nights);
 
   const HeightField& first = *nights.ground.front();
   const std::vector<Lookout> views = stations(random, first);
@@ -114,16 +172,27 @@ Timeline mine_timeline(const FamilyOptions& options) {
   }
   park_trucks(timeline, random, floor, nights, options.hard ? 3 : 1);
 
-  for (std::uint32_t i = 0; i < scans; ++i) {
-    const std::uint32_t night = i / kStations;
-    const Duration since_start =
-        std::chrono::hours(24) * night + options.interval.value_or(std::chrono::minutes(20)) * (i % kStations);
-    append_scan(timeline, options,
-                {.lookout = views[i % kStations],
-                 .captured_at = start_of(options) + since_start,
-                 .present = nights.present[night],
-                 .passing = {nights.terrain[night]}});
+  append_scans(timeline, options, views, nights, scans);
+  return timeline;
+}
+
+Timeline pit_timeline(const FamilyOptions& options) {
+  RandomSequence random(options.seed);
+  Timeline timeline;
+  timeline.scanners = {light_scanner(options)};
+  timeline.ground = {.corner_m = kArea_m.min(),
+                     .cell_m = kCell_m,
+                     .columns = static_cast<std::uint32_t>(kArea_m.sizes().x() / kCell_m),
+                     .rows = static_cast<std::uint32_t>(kArea_m.sizes().y() / kCell_m),
+                     .mean_height_m = {}};
+  const std::uint32_t scans = options.scans.value_or(kNights * kStations);
+  const Nights nights = dig(timeline, Pit(random.seed()), (scans + kStations - 1) / kStations);
+  for (const auto& ground : nights.ground) {
+    timeline.ground.mean_height_m.push_back(mean_heights_m(*ground, timeline.ground));
   }
+  add_earthworks(timeline, nights);
+  const std::vector<Lookout> views = lookouts(random);
+  append_scans(timeline, options, views, nights, scans);
   return timeline;
 }
 

@@ -171,6 +171,27 @@ std::optional<StateId> next_event(Yard& yard, std::uint32_t since_quiet) {
   }
 }
 
+/// The same when little happens. Returns who is only passing; `passes` says whether somebody did in the round before.
+std::optional<StateId> rare_event(Yard& yard, std::uint32_t since_quiet, std::uint32_t apart, bool passes) {
+  if (since_quiet % apart != 0) {
+    return yard.random.below(3) == 0 ? yard.person_steps(passes && yard.random.below(2) == 0) : std::nullopt;
+  }
+  switch (since_quiet / apart % 4) {
+    case 0:
+      yard.leave_bag();
+      break;
+    case 1:
+      yard.remove_one(yard.crates);
+      break;
+    case 2:
+      yard.remove_one(yard.bags);
+      break;
+    default:
+      yard.put_crate();
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Timeline yard_timeline(const FamilyOptions& options, const YardStory& story) {
@@ -185,10 +206,16 @@ Timeline yard_timeline(const FamilyOptions& options, const YardStory& story) {
   const auto sensors = static_cast<std::uint32_t>(views.size());
   const std::uint32_t scans = options.scans.value_or(story.rounds * sensors);
   std::optional<StateId> passer;
+  const auto passing_in = [&](std::uint32_t round) -> std::optional<StateId> {
+    if (round < story.quiet_rounds) return std::nullopt;
+    const std::uint32_t since_quiet = round - story.quiet_rounds;
+    if (story.rounds_apart == 0) return next_event(yard, since_quiet);
+    return rare_event(yard, since_quiet, story.rounds_apart, passer.has_value());
+  };
   for (std::uint32_t i = 0; i < scans; ++i) {
     const std::uint32_t round = i / sensors;
     const std::uint32_t sensor = i % sensors;
-    if (sensor == 0) passer = round >= story.quiet_rounds ? next_event(yard, round - story.quiet_rounds) : std::nullopt;
+    if (sensor == 0) passer = passing_in(round);
     std::vector<StateId> present = yard.present();
     if (passer) present.push_back(*passer);
     const Duration since_start =

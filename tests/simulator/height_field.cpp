@@ -65,6 +65,14 @@ std::uint32_t cell_index(double place, std::uint32_t nodes) {
   return static_cast<std::uint32_t>(std::clamp(std::floor(place), 0.0, last));
 }
 
+/// The cell that the ray goes through next after `t`, in one axis. On a border, which rounding does not let a ray leave
+/// that hardly moves along this axis, it is the cell on the side to which the ray goes.
+std::uint32_t cell_ahead(double origin, double direction, double t, std::uint32_t nodes) {
+  const std::uint32_t cell = cell_index(origin + direction * (t + kNudge_m), nodes);
+  if (block_end(origin, direction, cell, 0) > t) return cell;
+  return direction > 0.0 ? std::min(cell + 1, nodes - 2) : std::max(cell, 1u) - 1;
+}
+
 }  // namespace
 
 /// One cell: z = a + b u + c v + d u v for u, v in 0..1.
@@ -195,8 +203,8 @@ std::optional<double> HeightField::intersect(const Ray& ray) const {
   const auto top = static_cast<unsigned>(levels_.size() - 1);
   unsigned level = top;
   while (ahead.from < ahead.to) {
-    const std::uint32_t column = cell_index(cell_ray.u(ahead.from + kNudge_m), layout_.columns);
-    const std::uint32_t row = cell_index(cell_ray.v(ahead.from + kNudge_m), layout_.rows);
+    const std::uint32_t column = cell_ahead(cell_ray.u0, cell_ray.du, ahead.from, layout_.columns);
+    const std::uint32_t row = cell_ahead(cell_ray.v0, cell_ray.dv, ahead.from, layout_.rows);
     const double leave_m = std::min({ahead.to, block_end(cell_ray.u0, cell_ray.du, column >> level, level),
                                      block_end(cell_ray.v0, cell_ray.dv, row >> level, level)});
     const Stretch part{ahead.from, std::max(leave_m, ahead.from + kNudge_m)};

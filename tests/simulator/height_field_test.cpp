@@ -107,3 +107,31 @@ TEST_CASE("a trench and a ridge of bilinear shape have exactly known volumes") {
   CHECK(volume_change(flat, tilted).filled_m3 == doctest::Approx(400.0).epsilon(1e-12));
   CHECK(volume_change(flat, tilted).cut_m3 == doctest::Approx(400.0).epsilon(1e-12));
 }
+
+// Rays that start on a border between cells and hardly leave it never got on: each step was as short as rounding
+// allows.
+TEST_CASE("rays that start exactly on the nodes end, however they run along the borders of cells") {
+  const HeightField field(kLayout, hills_m);
+  const FieldLayout& layout = field.layout();
+  int ends = 0, hits = 0;
+  for (std::uint32_t node = 1; node + 1 < layout.columns; node += 3) {
+    const Eigen::Vector2d place_m = layout.node_m(node, layout.rows - 1 - node);
+    for (const double above_m : {0.0, 3.0}) {
+      const Eigen::Vector3d from_m(place_m.x(), place_m.y(), field.height_m(place_m) + above_m);
+      for (const double lean : {0.0, 1e-17, -1e-17, 1e-12, -1e-12}) {
+        for (const double down : {-1.0, -0.2, 0.0, 1.0}) {
+          const double level = std::sqrt(1.0 - down * down);
+          for (const Eigen::Vector3d& direction :
+               {Eigen::Vector3d(lean, level, down), Eigen::Vector3d(-level, lean, down)}) {
+            const auto range_m = field.intersect({from_m, direction});
+            ++ends;
+            hits += range_m ? 1 : 0;
+            if (down == -1.0 && above_m > 0.0) CHECK(range_m.value_or(0.0) == doctest::Approx(above_m));
+          }
+        }
+      }
+    }
+  }
+  CHECK(ends == 27 * 2 * 5 * 4 * 2);
+  CHECK(hits > ends / 4);
+}

@@ -19,6 +19,8 @@ constexpr const char* kDescription =
     "  carpark  cars are moved, leave and arrive; three poses, 64 rings\n"
     "  yard     a bag is left, a crate removed, a person passes; two fixed sensors, 64 rings\n"
     "  mine     a bench is blasted and dug away; two stations of a tripod scanner, 1.4 million shots, a night apart\n"
+    "  pit      the same pit from the wall opposite, a week of nights, two light scanners, true heights in the "
+    "manifest\n"
     "  stream   the yard with one sensor, ending now, at first without any change; for demonstrations\n\n"
     "The same options always give the same bytes (stream: the same with --start).";
 
@@ -55,7 +57,7 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--start", arguments.start, "Capture time of the first scan, RFC 3339");
   app.add_option("--interval-s", arguments.interval_s,
-                 "Seconds between scans (sim, lab, carpark, mine: of one epoch; yard, stream: of one sensor)")
+                 "Seconds between scans (sim, lab, carpark, mine, pit: of one epoch; yard, stream: of one sensor)")
       ->check(CLI::Range(0.001, 1e7));
   app.add_option("--format", arguments.format, "Format of the scan files")
       ->check(CLI::IsMember({"pcd"}))

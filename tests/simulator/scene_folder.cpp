@@ -121,9 +121,16 @@ void SceneFolder::write_manifest(Family family, const FamilyOptions& options, co
   for (const VolumeChange& change : timeline.earthworks) {
     earthworks.push_back({{"filled_m3", change.filled_m3}, {"cut_m3", change.cut_m3}});
   }
-  const nlohmann::json manifest{{"family", to_string(family)}, {"seed", options.seed}, {"hard", options.hard},
-                                {"density", options.density},  {"scans", scans},       {"objects", objects},
-                                {"earthworks", earthworks}};
+  nlohmann::json manifest{{"family", to_string(family)}, {"seed", options.seed}, {"hard", options.hard},
+                          {"density", options.density},  {"scans", scans},       {"objects", objects},
+                          {"earthworks", earthworks}};
+  if (const TrueGround& ground = timeline.ground; !ground.mean_height_m.empty()) {
+    manifest["ground"] = {{"corner_m", {ground.corner_m.x(), ground.corner_m.y()}},
+                          {"cell_m", ground.cell_m},
+                          {"columns", ground.columns},
+                          {"rows", ground.rows},
+                          {"mean_height_m", ground.mean_height_m}};
+  }
   const std::filesystem::path path = folder_ / "manifest.json";
   std::ofstream out = create(path);
   out << manifest.dump(2) << '\n';

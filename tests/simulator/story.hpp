@@ -84,8 +84,12 @@ struct YardStory {
   std::size_t sensors = 2;
   std::uint32_t quiet_rounds = 2;  ///< before the first change
   std::uint32_t rounds = 12;       ///< in each, every sensor takes a scan
+  /// 0: much happens, for demonstrations and evaluation by scans. Else something lasting happens every so many rounds,
+  /// and in a third of all others somebody passes.
+  std::uint32_t rounds_apart = 0;
 };
 Timeline yard_timeline(const FamilyOptions& options, const YardStory& story);
 Timeline mine_timeline(const FamilyOptions& options);
+Timeline pit_timeline(const FamilyOptions& options);
 
 }  // namespace raywatch::simulator

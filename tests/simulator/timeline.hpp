@@ -32,6 +32,14 @@ struct Moment {
   std::uint64_t wind_seed = 0;      ///< how the wind has moved the leaves; 0: not at all
 };
 
+/// The ground of each night on a grid, row by row from its lowest corner.
+struct TrueGround {
+  Eigen::Vector2d corner_m = Eigen::Vector2d::Zero();
+  double cell_m = 1.0;
+  std::uint32_t columns = 0, rows = 0;
+  std::vector<std::vector<double>> mean_height_m;  ///< one a night: exact, over each cell
+};
+
 /// What happens at a place over time, as a list of scans to be taken, in order of time.
 struct Timeline {
   std::vector<Scanner> scanners;
@@ -40,6 +48,7 @@ struct Timeline {
   std::vector<ObjectState> objects;  ///< the state with id i stands at i - 1
   std::vector<Moment> moments;
   std::vector<VolumeChange> earthworks;  ///< from each night to the next, where the ground changes
+  TrueGround ground;                     ///< where volumes are to be checked; else empty
 
   const ObjectState& object(StateId id) const { return objects.at(id - 1U); }
 };

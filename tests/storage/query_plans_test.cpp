@@ -8,12 +8,17 @@
 #include "storage/calendar.hpp"
 #include "storage/deletions.hpp"
 #include "storage/deliveries.hpp"
+#include "storage/epochs.hpp"
 #include "storage/events.hpp"
 #include "storage/retention.hpp"
 #include "storage/rules.hpp"
+#include "storage/schedules.hpp"
 #include "storage/snapshot.hpp"
 #include "storage/sqlite.hpp"
 #include "storage/storage_use.hpp"
+#include "storage/survey_runs.hpp"
+#include "storage/survey_series.hpp"
+#include "storage/surveys.hpp"
 #include "storage/tracks.hpp"
 #include "storage/zones.hpp"
 #include "tests/storage/store_fixture.hpp"
@@ -142,6 +147,31 @@ void tell(const Snapshot& s, SiteId site) {
   unfinished_deliveries(s);
 }
 
+void survey(const Snapshot& s, SiteId site) {
+  const std::optional<ScheduleId> none, schedule = ScheduleId{1};
+  for (const std::optional<SiteId> of : {std::optional<SiteId>(), std::optional(site)}) {
+    list_schedules(s, of, {});
+    list_epochs(s, of, {});
+    for (const auto& by : {none, schedule}) {
+      list_runs(s, {.site = of, .schedule = by}, {});
+      list_surveys(s, {.site = of, .schedule = by}, {});
+    }
+  }
+  enabled_schedules(s);
+  queued_runs(s);
+  unfinished_runs(s, site);
+  has_useful_run(s, *schedule, at_second(0));
+  for (const auto& by : {none, schedule}) {
+    for (const bool accepted : {false, true}) {
+      latest_epoch(s, {.site = site, .schedule = by, .until = at_second(0), .accepted = accepted});
+    }
+    survey_series(s, {.site = site, .schedule = by, .zone = {}}, at_second(0), at_second(1), 10);
+  }
+  scans_that_surveys_need(s, site);
+  is_in_accepted_epoch(s, ScanId{1});
+  level_of(s, *schedule, std::nullopt, SurveyFigure::net_m3);
+}
+
 void keep(const Snapshot& s, SiteId site) {
   for (const std::optional<SiteId> of : {std::optional<SiteId>(), std::optional(site)}) list_deletions(s, of, {});
   plan_retention(s, site, {.in_force = {.max_age_days = 1}, .now = at_second(1'000'000)}, 100);
@@ -172,6 +202,7 @@ TEST_CASE_FIXTURE(StoreFixture, "no question to the store reads a whole table or
     ask_for_priors(s, site.id, vantage);
     watch(s, site.id, sensor.id);
     tell(s, site.id);
+    survey(s, site.id);
     keep(s, site.id);
     // Sites are few, and each is asked once; counting stops at a limit.
     const std::set<std::string> known{"SCAN sites", "SCAN (subquery-1)"};

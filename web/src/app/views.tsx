@@ -5,6 +5,8 @@
 import { type ComponentType } from 'preact';
 import { AlertsView } from '../features/alerts/alerts_view';
 import { BaselinesView } from '../features/baselines/baselines_view';
+import { ChangeView } from '../features/changes/change_view';
+import { ComparisonSceneView, ScanSceneView } from '../features/changes/scan_scene_view';
 import { OverviewView } from '../features/overview/overview_view';
 import { ScanView } from '../features/scans/scan_view';
 import { ScansView } from '../features/scans/scans_view';
@@ -45,6 +47,7 @@ const comparisons = loaded(() => import('../features/comparisons/views'));
 const zones = loaded(() => import('../features/zones/views'));
 const channels = loaded(() => import('../features/channels/views'));
 const rules = loaded(() => import('../features/rules/views'));
+const storage = loaded(() => import('../features/storage/storage_view'));
 
 export const kViews: readonly View[] = [
   view('/', 'Overview', OverviewView, { icon: 'overview' }),
@@ -55,8 +58,11 @@ export const kViews: readonly View[] = [
   view('/tracks/:id', 'Track', tracks('TrackView')),
   view('/scans', 'Scans', ScansView, { icon: 'scan' }),
   view('/scans/:id', 'Scan', ScanView),
+  view('/scans/:id/3d', 'Scan in 3D', ScanSceneView),
+  view('/changes/:id', 'Change', ChangeView),
   view('/comparisons', 'Comparisons', comparisons('ComparisonsView'), { icon: 'compare' }),
   view('/comparisons/:id', 'Comparison', comparisons('ComparisonView')),
+  view('/comparisons/:id/3d', 'Comparison in 3D', ComparisonSceneView),
   view('/compare', 'Compare by hand', comparisons('CompareView')),
   view('/sensors', 'Sensors', SensorsView, { icon: 'sensor' }),
   view('/sensors/:name', 'Sensor', SensorView),
@@ -72,12 +78,7 @@ export const kViews: readonly View[] = [
   view('/channels/new', 'New channel', channels('NewChannelView')),
   view('/channels/:id', 'Channel', channels('ChannelView')),
   view('/deliveries', 'Deliveries', channels('DeliveriesView'), { icon: 'delivery' }),
-  view(
-    '/storage',
-    'Storage',
-    lazy(() => import('../features/storage/storage_view').then((module) => module.StorageView)),
-    { icon: 'storage' },
-  ),
+  view('/storage', 'Storage', storage('StorageView'), { icon: 'storage' }),
 ];
 
 /** The view that a path shows, with what its placeholders stand for. */

@@ -12,22 +12,25 @@ export interface FieldProps {
   error?: string | undefined;
 }
 
-/** A label over whatever is filled in. `children` gets what ties the input to its messages. */
-export function Field({
-  label,
-  hint,
-  error,
-  children,
-}: FieldProps & { children: (ties: { 'aria-invalid': boolean; 'aria-describedby': string }) => ComponentChildren }) {
-  const about = useId();
+/** What ties an input to its label and to its messages. */
+export interface Ties {
+  id: string;
+  'aria-invalid': boolean;
+  'aria-describedby': string;
+}
+
+/** A label over whatever is filled in, and what is said about it beneath. */
+export function Field({ label, hint, error, children }: FieldProps & { children: (ties: Ties) => ComponentChildren }) {
+  const id = useId();
+  const about = `${id}-about`;
   return (
-    <label class="field">
-      {label}
-      {children({ 'aria-invalid': error !== undefined, 'aria-describedby': about })}
+    <div class="field">
+      <label for={id}>{label}</label>
+      {children({ id, 'aria-invalid': error !== undefined, 'aria-describedby': about })}
       <span id={about} class={error === undefined ? 'field-hint' : 'field-bad'}>
         {error ?? hint}
       </span>
-    </label>
+    </div>
   );
 }
 
@@ -90,6 +93,7 @@ export function NumberField({
         <span class="with-unit">
           <input
             {...ties}
+            aria-describedby={`${ties.id}-unit ${ties['aria-describedby']}`}
             type="number"
             inputMode="decimal"
             min={min}
@@ -100,7 +104,7 @@ export function NumberField({
             value={value}
             onInput={(event) => onValue(event.currentTarget.value)}
           />
-          {unit}
+          <span id={`${ties.id}-unit`}>{unit}</span>
         </span>
       )}
     </Field>

@@ -4,9 +4,11 @@ import { type Schema } from '../../lib/api';
 import { count, counted, duration, percent, placeMetres, sizeMetres, volume } from '../../lib/format';
 import { historyLink, pointPlace } from '../../lib/place';
 import { KindBadge } from '../../ui/badges';
+import { Icon } from '../../ui/icon';
 import { SightStrip } from '../../ui/sight_strip';
 import { Time } from '../../ui/time';
 import { ViewLink } from '../../ui/view_link';
+import { AlertPicture } from './alert_picture';
 import { ruleInWords } from './rule_words';
 
 type Reason = Schema<'AlertReason'>;
@@ -26,14 +28,15 @@ export function Why({ alert, why }: { alert: Schema<'Alert'>; why: Reason }) {
         <Figures alert={alert} track={why.track} />
         <p class="actions">
           {why.changes.map((change) => (
-            <ViewLink key={change} to={`/changes/${change}`}>
-              Change {change}
-            </ViewLink>
+            <a key={change} class="button" href={`/changes/${change}`}>
+              <Icon name="change" /> {why.changes.length === 1 ? 'Show in 3D' : `Change ${change} in 3D`}
+            </a>
           ))}
           <a href={`/tracks/${why.track.id}`}>Track {why.track.id}</a>
           <a href={historyLink(alert.site, pointPlace(why.track.centroid_m))}>History of this place</a>
         </p>
       </section>
+      {why.changes[0] !== undefined && <AlertPicture change={why.changes[0]} />}
       <section class="alert-part">
         <h3>Who saw it</h3>
         <SightStrip observations={why.observations} site={alert.site} />

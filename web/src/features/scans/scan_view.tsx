@@ -4,9 +4,11 @@ import './scans.css';
 import { useResource } from '../../app/app';
 import { type Schema } from '../../lib/api';
 import { bytes, count, counted, degrees, metres, percent, placeMetres } from '../../lib/format';
+import { Icon } from '../../ui/icon';
 import { Loaded } from '../../ui/states';
 import { Time } from '../../ui/time';
 import { ViewLink } from '../../ui/view_link';
+import { ScanPanorama } from '../panorama/scan_panorama';
 import { RegistrationBadge, ScanStateBadge } from './badges';
 import { Comparisons } from './comparisons';
 import { Keeping, scanAddress } from './keeping';
@@ -26,10 +28,15 @@ export function ScanView({ id }: { id: string }) {
               by <ViewLink to={`/sensors/${encodeURIComponent(data.sensor)}`}>{data.sensor}</ViewLink> at {data.site},{' '}
               <Time at={data.captured_at} site={data.site} whole />
             </span>
+            <span class="spacer" />
+            <a class="button" href={`/scans/${data.id}/3d`}>
+              <Icon name="change" /> Show in 3D
+            </a>
           </div>
           <div class="panels">
             <Facts scan={data} />
             <Keeping key={data.id} scan={data} resource={scan} />
+            <ScanPanorama scan={data} />
             <Comparisons scan={data} />
           </div>
         </>

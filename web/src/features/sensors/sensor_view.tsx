@@ -8,6 +8,7 @@ import { Problem } from '../../lib/problem';
 import { type Resource } from '../../lib/resources';
 import { Loaded } from '../../ui/states';
 import { Time } from '../../ui/time';
+import { LatestPanorama } from '../panorama/scan_panorama';
 
 type Sensor = Schema<'Sensor'>;
 
@@ -31,6 +32,7 @@ export function SensorView({ name }: { name: string }) {
           </div>
           <div class="panels">
             <Facts sensor={data} />
+            <LatestPanorama sensor={data.name} />
             <Edit key={sensor.etag} sensor={data} resource={sensor} />
           </div>
         </>

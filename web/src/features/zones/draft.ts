@@ -1,9 +1,9 @@
 // A zone as it is filled in: numbers are texts until they are sent.
 
-import { type Schema } from '../../lib/api';
+import type { Schema } from '../../lib/api';
 import { metres } from '../../lib/format';
-import { type Difference } from '../../ui/edited_elsewhere';
-import { type OutlineEdit } from './outline_edit';
+import type { Difference } from '../../ui/edited_elsewhere';
+import type { OutlineEdit } from './outline_edit';
 import { area, crossing } from './polygon';
 
 export interface ZoneDraft {

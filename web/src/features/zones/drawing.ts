@@ -1,6 +1,6 @@
 // The hand that draws an outline on the picture from above: what a press, a click and a key mean for it.
 
-import { type PickedPlace } from '../../ui/top_view/top_view';
+import type { PickedPlace } from '../../ui/top_view/top_view';
 import { type Place } from '../../ui/top_view/frame';
 import { type Tool } from '../../ui/top_view/gestures';
 import { type OutlineAction, type OutlineEdit } from './outline_edit';

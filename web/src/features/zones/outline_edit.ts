@@ -52,7 +52,7 @@ export function reduceOutline(edit: OutlineEdit, action: OutlineAction): Outline
     case 'held':
       return { ...edit, held: action.corner, pulling: false };
     case 'inserted':
-      return step(edit, { corners: corners.toSpliced(action.after + 1, 0, action.at) }, action.after + 1);
+      return inserted(edit, action);
     case 'pulled':
       return pulled(edit, action.to);
     case 'let go':
@@ -74,6 +74,11 @@ const outlineOf = ({ corners, closed }: Outline): Outline => ({ corners, closed 
 
 function step(edit: OutlineEdit, change: Partial<Outline>, held: number | undefined): OutlineEdit {
   return { ...edit, ...change, held, pulling: false, past: [...edit.past, outlineOf(edit)], future: [] };
+}
+
+/** A new corner that is pulled on at once is one step with its pull. */
+function inserted(edit: OutlineEdit, { after, at }: { after: number; at: Place }): OutlineEdit {
+  return { ...step(edit, { corners: edit.corners.toSpliced(after + 1, 0, at) }, after + 1), pulling: true };
 }
 
 function pulled(edit: OutlineEdit, to: Place): OutlineEdit {
