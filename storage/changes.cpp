@@ -88,8 +88,7 @@ struct Query {
 std::string conditions(const ChangeFilter& filter) {
   std::string where;
   if (filter.site) where += "c.site = ?1 AND ";
-  const bool all_of_one = filter.comparison || filter.track;
-  if (!all_of_one) where += filter.watching ? "c.watching = 1 AND " : "c.watching = 0 AND ";
+  if (!filter.comparison) where += filter.watching ? "c.watching = 1 AND " : "c.watching = 0 AND ";
   if (filter.comparison) where += "c.comparison = ?2 AND ";
   if (filter.track) where += "c.track = ?16 AND ";
   if (filter.kind) where += "c.kind = ?3 AND ";

@@ -160,8 +160,8 @@ struct ChangeFilter {
   std::optional<Time> from, to;
   std::optional<Eigen::AlignedBox3d> box_m;  ///< local; needs `site`; changes whose bounds intersect it (R*Tree)
   std::optional<double> min_volume_m3;
-  bool watching = false;  ///< what lasts, by the watching comparisons; else all others. Ignored with `comparison`
-                          ///< and `track`
+  bool watching = false;  ///< what lasts, by the watching comparisons; else all others. Ignored with
+                          ///< `comparison`, all of whose changes are meant
 };
 /// Newest capture first, then by place in the comparison.
 Page<ChangeRecord> list_changes(const Snapshot& snapshot, const ChangeFilter& filter, const PageRequest& page);

@@ -45,6 +45,7 @@ HttpAnswer list_track_changes(Call& call) {
   return json_answer(call.services.store.read([&](const Snapshot& snapshot) {
     ChangeFilter filter;
     filter.track = track_with(snapshot, id).track.id;
+    filter.watching = true;
     return render_page(raywatch::list_changes(snapshot, filter, page),
                        [&](const ChangeRecord& change) { return render(snapshot, change); });
   }));

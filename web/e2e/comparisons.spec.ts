@@ -10,26 +10,26 @@ interface ComparisonJson {
 }
 
 test('a comparison by hand, from the scan by the form to its result and once more', async ({ page, yard }) => {
-  await page.goto(`${yard.url}/scans/9`);
+  await page.goto(`${yard.url}/scans/10`);
   await page.getByRole('link', { name: 'Compare by hand' }).click();
-  await expect(page.getByLabel('Number of the scan')).toHaveValue('9');
-  await expect(page.getByText(/By yard-1 at yard, .*09:02:00 CET/)).toBeVisible();
+  await expect(page.getByLabel('Number of the scan')).toHaveValue('10');
+  await expect(page.getByText(/By yard-2 at yard, .*09:02:01 CET/)).toBeVisible();
   await expect(page.getByLabel('Range (m)')).toHaveAttribute('placeholder', '0.15');
   await page.getByLabel('Named scans').check();
   await page.getByRole('button', { name: 'Add …' }).click();
   const picker = page.getByRole('dialog', { name: 'Compare with this scan, too' });
-  await picker.getByLabel('Sensor').selectOption('yard-1');
-  await picker.getByRole('button', { name: /^3 ?yard-1/ }).click();
-  await expect(page.getByLabel('Numbers of scans')).toHaveValue('3');
+  await picker.getByLabel('Sensor').selectOption('yard-2');
+  await picker.getByRole('button', { name: /^4 ?yard-2/ }).click();
+  await expect(page.getByLabel('Numbers of scans')).toHaveValue('4');
   await page.getByLabel('Noise up to (points)').fill('3');
   await page.getByRole('button', { name: 'Compare', exact: true }).click();
 
   await expect(page).toHaveURL(/\/comparisons\/\d+$/);
   const id = Number(/(\d+)$/.exec(page.url())?.[1]);
   await expect(page.locator('.view-head')).toContainText('done');
-  await expect(page.locator('.view-head')).toContainText('with scan 3');
+  await expect(page.locator('.view-head')).toContainText('with scan 4');
   const comparison = await yard.get<ComparisonJson>(`/api/v1/comparisons/${id}`);
-  expect(comparison).toMatchObject({ scan: 9, reference: { scans: [3] } });
+  expect(comparison).toMatchObject({ scan: 10, reference: { scans: [4] } });
   expect(comparison.parameters['cluster_min_points']).toBe(3);
   expect(comparison.changes).toBeGreaterThan(0);
   const changes = page.getByRole('region', { name: `changes of comparison ${id}` }).locator('tbody tr');
@@ -38,7 +38,7 @@ test('a comparison by hand, from the scan by the form to its result and once mor
   await expect(page.getByRole('region', { name: 'Parameters' })).toContainText('3 points (else 5 points)');
 
   await page.getByRole('link', { name: 'Again, with other parameters' }).click();
-  await expect(page.getByLabel('Numbers of scans')).toHaveValue('3');
+  await expect(page.getByLabel('Numbers of scans')).toHaveValue('4');
   await expect(page.getByLabel('Noise up to (points)')).toHaveValue('3');
   await page.getByLabel('Grouping').selectOption('union');
   await expect(page.getByLabel('Roughness (m)')).toHaveCount(0);

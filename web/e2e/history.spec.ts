@@ -153,7 +153,7 @@ test('the calendar shows how much happened on each day, and a day becomes the ra
 test('an alert leads to the history of its place', async ({ page, yard }) => {
   const { items } = await yard.get<{ items: { id: number; track: number | null }[] }>('/api/v1/alerts?state=open');
   await page.goto(`${yard.url}/alerts/${items.find(({ track }) => track !== null)?.id}`);
-  await page.getByRole('link', { name: 'This place through time' }).click();
+  await page.getByRole('link', { name: 'History of this place' }).click();
   await expect(words(page)).toContainText(/since/);
 });
 

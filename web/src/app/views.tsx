@@ -41,15 +41,12 @@ function loaded<Module>(load: () => Promise<Module>): (name: keyof Module) => Co
     lazy<ViewProps>(async () => (await load())[name] as ComponentType<ViewProps>) as ComponentType<never>;
 }
 
+const history = loaded(() => import('../features/history/history_view'));
+const tracks = loaded(() => import('../features/tracks/views'));
+const comparisons = loaded(() => import('../features/comparisons/views'));
 const zones = loaded(() => import('../features/zones/views'));
 const channels = loaded(() => import('../features/channels/views'));
 const rules = loaded(() => import('../features/rules/views'));
-const history = loaded(() => import('../features/history/history_view'));
-const tracks = loaded(() => import('../features/tracks/tracks_view'));
-const track = loaded(() => import('../features/tracks/track_view'));
-const comparisons = loaded(() => import('../features/comparisons/comparisons_view'));
-const comparison = loaded(() => import('../features/comparisons/comparison_view'));
-const compare = loaded(() => import('../features/comparisons/compare_view'));
 const storage = loaded(() => import('../features/storage/storage_view'));
 
 export const kViews: readonly View[] = [
@@ -58,15 +55,15 @@ export const kViews: readonly View[] = [
   view('/alerts/:id', 'Alert', AlertsView),
   view('/history', 'History', history('HistoryView'), { icon: 'history' }),
   view('/tracks', 'Tracks', tracks('TracksView'), { icon: 'change' }),
-  view('/tracks/:id', 'Track', track('TrackView')),
+  view('/tracks/:id', 'Track', tracks('TrackView')),
   view('/scans', 'Scans', ScansView, { icon: 'scan' }),
   view('/scans/:id', 'Scan', ScanView),
   view('/scans/:id/3d', 'Scan in 3D', ScanSceneView),
-  view('/comparisons/:id/3d', 'Comparison in 3D', ComparisonSceneView),
   view('/changes/:id', 'Change', ChangeView),
   view('/comparisons', 'Comparisons', comparisons('ComparisonsView'), { icon: 'compare' }),
-  view('/comparisons/:id', 'Comparison', comparison('ComparisonView')),
-  view('/compare', 'Compare by hand', compare('CompareView')),
+  view('/comparisons/:id', 'Comparison', comparisons('ComparisonView')),
+  view('/comparisons/:id/3d', 'Comparison in 3D', ComparisonSceneView),
+  view('/compare', 'Compare by hand', comparisons('CompareView')),
   view('/sensors', 'Sensors', SensorsView, { icon: 'sensor' }),
   view('/sensors/:name', 'Sensor', SensorView),
   view('/baselines', 'Baselines', BaselinesView, { icon: 'baseline' }),

@@ -22,6 +22,8 @@ export interface ChartProps {
 }
 
 const kHeight_px = 220;
+const kNumber = new Intl.NumberFormat('en-GB', { maximumFractionDigits: 1 });
+const withUnit = (value: number, unit: string): string => `${kNumber.format(value)}\u00a0${unit}`.trimEnd();
 /** Told apart by people who do not see all colours alike, after Okabe and Ito, and by dashes. */
 const kLooks = [
   { colour: '#0072b2', dark: '#56b4e9', dash: [] },
@@ -76,7 +78,7 @@ function optionsOf(props: ChartProps, element: HTMLElement): uPlot.Options {
     scales: { y: props.range ? { range: [...props.range] } : {} },
     axes: [
       { ...axis, values: kTimeMarks },
-      { ...axis, size: 56, values: (_, values) => values.map((value) => `${value}\u00a0${props.unit}`) },
+      { ...axis, size: 56, values: (_, values) => values.map((value) => withUnit(value, props.unit)) },
     ],
     series: [
       { label: 'Time', value: '{YYYY}-{MM}-{DD} {HH}:{mm}:{ss}' },
@@ -89,7 +91,7 @@ function optionsOf(props: ChartProps, element: HTMLElement): uPlot.Options {
           width: 2,
           spanGaps: true,
           points: { show: true, size: 5, fill: () => (isDark() ? look.dark : look.colour) },
-          value: (_: uPlot, value: number | null) => (value === null ? '–' : `${value.toFixed(1)}\u00a0${props.unit}`),
+          value: (_: uPlot, value: number | null) => (value === null ? '–' : withUnit(value, props.unit)),
         };
       }),
     ],

@@ -2,6 +2,7 @@
 
 import { type Schema } from '../../lib/api';
 import { count, counted, duration, percent, placeMetres, sizeMetres, volume } from '../../lib/format';
+import { historyLink, pointPlace } from '../../lib/place';
 import { KindBadge } from '../../ui/badges';
 import { Icon } from '../../ui/icon';
 import { SightStrip } from '../../ui/sight_strip';
@@ -31,9 +32,8 @@ export function Why({ alert, why }: { alert: Schema<'Alert'>; why: Reason }) {
               <Icon name="change" /> {why.changes.length === 1 ? 'Show in 3D' : `Change ${change} in 3D`}
             </a>
           ))}
-          <ViewLink to={`/history?site=${encodeURIComponent(alert.site)}&point=${why.track.centroid_m.join(',')}`}>
-            This place through time
-          </ViewLink>
+          <a href={`/tracks/${why.track.id}`}>Track {why.track.id}</a>
+          <a href={historyLink(alert.site, pointPlace(why.track.centroid_m))}>History of this place</a>
         </p>
       </section>
       {why.changes[0] !== undefined && <AlertPicture change={why.changes[0]} />}

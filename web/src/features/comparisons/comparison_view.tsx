@@ -62,6 +62,11 @@ function Head({ comparison }: { comparison: Comparison }) {
         with {referenceInWords(comparison.reference, zone)}
       </span>
       <span class="spacer" />
+      {comparison.state === 'done' && (
+        <a class="button" href={`/comparisons/${comparison.id}/3d`}>
+          In 3D
+        </a>
+      )}
       <a class="button" href={`/compare?like=${comparison.id}`}>
         Again, with other parameters
       </a>

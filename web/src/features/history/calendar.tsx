@@ -81,9 +81,6 @@ export function Calendar({ site, zone, range, around_ms }: CalendarProps) {
 const monthWords = (date: string): string =>
   new Intl.DateTimeFormat('en-GB', { month: 'long', year: 'numeric', timeZone: 'UTC' }).format(new Date(date));
 
-const dayWords = (date: string): string =>
-  new Intl.DateTimeFormat('en-GB', { dateStyle: 'long', timeZone: 'UTC' }).format(new Date(date));
-
 interface MonthProps {
   first: string;
   days: readonly Day[];
@@ -208,14 +205,17 @@ function DayButton({ date, day, counts, most, chosen, reachable, onFocus, zone }
       class={`day day-${levelOf(value, most)}`}
       data-date={date}
       aria-pressed={chosen}
-      aria-label={`${dayWords(date)}: ${words}`}
       title={words}
       tabIndex={reachable ? 0 : -1}
       onFocus={onFocus}
       onClick={choose}
     >
       <span>{Number(date.slice(8))}</span>
-      <small>{value > 0 ? short(value) : ''}</small>
+      <span class="visually-hidden">
+        {' '}
+        {monthWords(date)}: {words}
+      </span>
+      <small aria-hidden="true">{value > 0 ? short(value) : ''}</small>
     </button>
   );
 }

@@ -64,9 +64,7 @@ function Told({ history, site, place, range }: ToldProps) {
           </p>
           <Timeline intervals={intervals} range={range} zone={zone} selected={selected} onSelect={select} />
           <Legend />
-          {shown && (
-            <OneInterval interval={shown} before={intervals[intervals.indexOf(shown) - 1]} place={place} site={site} />
-          )}
+          {shown && <OneInterval interval={shown} before={toldBefore(intervals, shown)} place={place} site={site} />}
           <h3>All intervals</h3>
           <IntervalsTable intervals={intervals} site={site} selected={selected} onSelect={select} />
         </div>
@@ -92,6 +90,12 @@ function Legend() {
       </li>
     </ul>
   );
+}
+
+/** The interval before one that shows the place differently; what could not see it tells nothing. */
+function toldBefore(intervals: readonly Interval[], interval: Interval): Interval | undefined {
+  if (interval.state === 'not_seen') return undefined;
+  return intervals.slice(0, intervals.indexOf(interval)).findLast(({ state }) => state !== 'not_seen');
 }
 
 /** The interval that is looked at, and how it came about: between which two scans the place changed. */

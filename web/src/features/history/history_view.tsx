@@ -6,10 +6,12 @@ import { useSites, useZone } from '../../app/sites';
 import { address, type Schema } from '../../lib/api';
 import { placeMetres, sizeMetres } from '../../lib/format';
 import { isPoint, type Place, placeOf, placeQuery } from '../../lib/place';
+import { SitePicker } from '../../ui/site_picker';
 import { EmptyState } from '../../ui/states';
 import { Calendar } from './calendar';
 import { Course } from './course';
 import { PlaceForm } from './place_form';
+import { PlacePicture } from './place_picture';
 import { type Range } from './range';
 import { RangeBar } from './range_bar';
 
@@ -30,7 +32,12 @@ export function HistoryView() {
       <div class="view-head">
         <h1>History</h1>
         <span class="muted">what was at a place through time, from the stored rays</span>
-        {sites.length > 1 && site !== undefined && <SiteChoice sites={sites} site={site} />}
+        {site !== undefined && (
+          <SitePicker
+            site={site}
+            onSite={(name) => setQuery({ site: name, point: undefined, box: undefined, interval: undefined })}
+          />
+        )}
       </div>
       {site === undefined ? (
         <div class="panel">
@@ -42,24 +49,6 @@ export function HistoryView() {
         <OfSite key={site} site={site} />
       )}
     </>
-  );
-}
-
-function SiteChoice({ sites, site }: { sites: readonly Schema<'Site'>[]; site: string }) {
-  return (
-    <select
-      aria-label="Site"
-      value={site}
-      onChange={(event) =>
-        setQuery({ site: event.currentTarget.value, point: undefined, box: undefined, interval: undefined })
-      }
-    >
-      {sites.map(({ name }) => (
-        <option key={name} value={name}>
-          {name}
-        </option>
-      ))}
-    </select>
   );
 }
 
@@ -76,6 +65,8 @@ function OfSite({ site }: { site: string }) {
   const around_ms = range?.from_ms ?? (latest ? Date.parse(latest.captured_at) : now_ms);
   const isOld = latest !== undefined && to === undefined && isBehind(history.data, latest.captured_at);
   const key = JSON.stringify(place);
+  const ask = (chosen: Place): void =>
+    setQuery({ site, point: undefined, box: undefined, interval: undefined, ...placeQuery(chosen) });
   return (
     <div class="history">
       <section class="panel" aria-labelledby="place">
@@ -83,13 +74,8 @@ function OfSite({ site }: { site: string }) {
           <h2 id="place">Place</h2>
           {place && <span class="muted">{placeWords(place)}</span>}
         </header>
-        <PlaceForm
-          key={key}
-          place={place}
-          onPlace={(chosen) =>
-            setQuery({ site, point: undefined, box: undefined, interval: undefined, ...placeQuery(chosen) })
-          }
-        />
+        <PlacePicture site={site} place={place} onPlace={ask} />
+        <PlaceForm key={key} place={place} onPlace={ask} />
       </section>
       <section class="panel" aria-labelledby="when">
         <header class="panel-head">
@@ -116,7 +102,7 @@ function OfSite({ site }: { site: string }) {
           <BrokenLink />
         ) : (
           <EmptyState title="No place is chosen.">
-            <p>Give its coordinates, or follow a link from an alert, a change or a track.</p>
+            <p>Click it in the picture, give its coordinates, or follow a link from an alert, a change or a track.</p>
           </EmptyState>
         )}
       </section>

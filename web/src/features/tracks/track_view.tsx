@@ -13,6 +13,7 @@ import { EmptyState, Loaded } from '../../ui/states';
 import { Time } from '../../ui/time';
 import { ViewLink } from '../../ui/view_link';
 import { AlertLine } from '../alerts/alert_line';
+import { findingsOf } from './findings';
 import { lastedSeconds, TrackStateBadge } from './track_state';
 
 type Track = Schema<'TrackDetail'>;
@@ -219,25 +220,9 @@ function Runs({ track }: { track: Track }) {
   );
 }
 
-const SeriesChart = lazy(() => import('../../ui/series_chart').then((module) => module.SeriesChart));
+const SizeCharts = lazy(() => import('./size_charts').then((module) => module.SizeCharts));
 /** So many of the latest changes are drawn. */
 const kMostDrawn = 1000;
-
-interface Finding {
-  readonly at_s: number;
-  readonly volume_m3: number;
-  readonly points: number;
-}
-
-/** What each scan found of it, in the order of time; one scan may have found it in pieces. */
-function findingsOf(changes: readonly Schema<'Change'>[]): Finding[] {
-  const byScan = new Map<number, Finding>();
-  for (const { scan, captured_at, volume_m3, points } of [...changes].reverse()) {
-    const known = byScan.get(scan) ?? { at_s: Date.parse(captured_at) / 1000, volume_m3: 0, points: 0 };
-    byScan.set(scan, { ...known, volume_m3: known.volume_m3 + volume_m3, points: known.points + points });
-  }
-  return [...byScan.values()];
-}
 
 /** How large it was found from scan to scan; a single finding is no course. */
 function Sizes({ track }: { track: Track }) {
@@ -246,28 +231,14 @@ function Sizes({ track }: { track: Track }) {
   );
   const findings = findingsOf(page.data?.items ?? []);
   if (findings.length < 2) return null;
-  const at_s = findings.map((finding) => finding.at_s);
   return (
     <section class="panel panel-wide" aria-labelledby="sizes">
       <header class="panel-head">
         <h2 id="sizes">Its size through time</h2>
-        {page.data?.next != null && <span class="muted">the latest {count(kMostDrawn)} findings</span>}
+        {page.data?.next != null && <span class="muted">by the latest {count(kMostDrawn)} changes</span>}
       </header>
       <div class="panel-body charts">
-        <SeriesChart
-          label="Volume of its boxes"
-          site={track.site}
-          at_s={at_s}
-          values={findings.map(({ volume_m3 }) => volume_m3 * 1000)}
-          unit="L"
-        />
-        <SeriesChart
-          label="Points"
-          site={track.site}
-          at_s={at_s}
-          values={findings.map(({ points }) => points)}
-          unit="points"
-        />
+        <SizeCharts site={track.site} findings={findings} />
       </div>
     </section>
   );
