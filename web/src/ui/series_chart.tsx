@@ -13,14 +13,32 @@ export interface SeriesChartProps {
   site: string;
   /** Seconds since 1970, ascending. */
   at_s: readonly number[];
-  values: readonly number[];
+  series: readonly Series[];
   unit: string;
+  /** Of the values; from zero to a little above the greatest when it is not given. */
+  range?: readonly [number, number];
+}
+
+export interface Series {
+  /** Not needed where there is one. */
+  readonly name?: string;
+  /** One for each moment; null where there is none. */
+  readonly values: readonly (number | null)[];
 }
 
 const kHeight_px = 180;
 const kNumber = new Intl.NumberFormat('en-GB', { maximumSignificantDigits: 4 });
 
-export function SeriesChart({ label, site, at_s, values, unit }: SeriesChartProps) {
+/** Several series are told apart by dashes and dots, too. */
+const kLooks = [
+  { colour: '--accent', dash: [] },
+  { colour: '--removed', dash: [7, 4] },
+  { colour: '--added', dash: [2, 4] },
+  { colour: '--critical', dash: [9, 4, 2, 4] },
+] as const;
+
+export function SeriesChart(props: SeriesChartProps) {
+  const { label, site, at_s, series, unit } = props;
   const place = useRef<HTMLDivElement>(null);
   const zone = useZone(site);
   const theme = useTheme();
@@ -28,8 +46,8 @@ export function SeriesChart({ label, site, at_s, values, unit }: SeriesChartProp
     const element = place.current;
     if (!element) return;
     const chart = new uPlot(
-      optionsFor(element, { label, unit, zone }),
-      [at_s as number[], values as number[]],
+      optionsFor(element, { ...props, zone }),
+      [[...at_s], ...series.map(({ values }) => [...values])],
       element,
     );
     const sizes = new ResizeObserver(() => chart.setSize({ width: element.clientWidth, height: kHeight_px }));
@@ -38,7 +56,8 @@ export function SeriesChart({ label, site, at_s, values, unit }: SeriesChartProp
       sizes.disconnect();
       chart.destroy();
     };
-  }, [JSON.stringify(at_s), JSON.stringify(values), label, unit, zone, theme]);
+  }, [JSON.stringify(at_s), JSON.stringify(series), label, unit, zone, theme]);
+  const values = series.flatMap((each) => each.values.filter((value) => value !== null));
   const [least, most] = [Math.min(...values), Math.max(...values)];
   return (
     <figure class="chart">
@@ -60,7 +79,7 @@ function useTheme(): string {
   return theme === 'auto' ? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light') : theme;
 }
 
-function optionsFor(element: HTMLElement, about: { label: string; unit: string; zone: string }): uPlot.Options {
+function optionsFor(element: HTMLElement, about: SeriesChartProps & { zone: string }): uPlot.Options {
   const colour = (name: string): string => resolved(element, `var(${name})`);
   const axis = { stroke: colour('--muted'), grid: { stroke: colour('--line'), width: 1 }, ticks: { show: false } };
   return {
@@ -69,20 +88,25 @@ function optionsFor(element: HTMLElement, about: { label: string; unit: string; 
     tzDate: (at_s) => uPlot.tzDate(new Date(at_s * 1000), about.zone),
     cursor: { drag: { x: false, y: false } },
     legend: { show: true },
-    scales: { y: { range: (_, __, most) => [0, most > 0 ? most * 1.1 : 1] } },
+    scales: { y: { range: (_, __, most) => [...(about.range ?? ([0, most > 0 ? most * 1.1 : 1] as const))] } },
     axes: [
       { ...axis, values: clockTicks },
       { ...axis, size: 64, values: (_, ticks) => ticks.map((tick) => kNumber.format(tick)) },
     ],
     series: [
       { label: `Time (${about.zone})`, value: '{YYYY}-{MM}-{DD} {HH}:{mm}:{ss}' },
-      {
-        label: about.label,
-        stroke: colour('--accent'),
-        width: 2,
-        points: { size: 5 },
-        value: (_, value) => (value == null ? '–' : `${kNumber.format(value)} ${about.unit}`),
-      },
+      ...about.series.map(({ name }, index): uPlot.Series => {
+        const look = kLooks[index % kLooks.length]!;
+        return {
+          label: name ?? about.label,
+          stroke: colour(look.colour),
+          dash: [...look.dash],
+          width: 2,
+          spanGaps: true,
+          points: { size: 5 },
+          value: (_, value) => (value == null ? '–' : `${kNumber.format(value)} ${about.unit}`),
+        };
+      }),
     ],
   };
 }

@@ -258,14 +258,14 @@ function Sizes({ track }: { track: Track }) {
           label="Volume of its boxes"
           site={track.site}
           at_s={at_s}
-          values={findings.map(({ volume_m3 }) => volume_m3 * 1000)}
+          series={[{ values: findings.map(({ volume_m3 }) => volume_m3 * 1000) }]}
           unit="L"
         />
         <SeriesChart
           label="Points"
           site={track.site}
           at_s={at_s}
-          values={findings.map(({ points }) => points)}
+          series={[{ values: findings.map(({ points }) => points) }]}
           unit="points"
         />
       </div>
