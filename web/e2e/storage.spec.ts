@@ -24,7 +24,8 @@ test('what is stored, what would go, and what went', async ({ page, yard }) => {
   await expect(page.getByLabel('Scans older than this go')).toHaveValue('30');
   expect(await yard.get('/api/v1/sites/yard')).toMatchObject({ retention: { max_age_days: 30, max_bytes: null } });
 
-  await fetch(`${yard.url}/api/v1/scans/7`, { method: 'DELETE' });
+  const deleted = await fetch(`${yard.url}/api/v1/scans/14`, { method: 'DELETE' });
+  expect(deleted.status).toBe(204);
   await page.reload();
   await expect(page.getByRole('table', { name: 'deletions' }).locator('tbody tr')).toContainText('by hand');
 });

@@ -182,7 +182,7 @@ test('how much of a zone was seen is shown through time', async ({ page, daemon 
   await expect(page.getByRole('row', { name: /gate/ })).toContainText(/\d+.%/);
   await page.goto(`${daemon.url}/zones/${made.id}`);
   await expect(page.getByText(/The latest scan, .* could judge/)).toBeVisible();
-  await expect(page.getByRole('img', { name: /judged by 3 scans/ }).locator('canvas')).toBeVisible();
+  await expect(page.getByRole('img', { name: /judged, of 3 scans/ }).locator('canvas')).toBeVisible();
 });
 
 test('nothing is drawn while nothing moves', async ({ page, yard }) => {

@@ -2,10 +2,9 @@
 
 import { useState } from 'preact/hooks';
 import { useResource } from '../../app/app';
-import { useZone } from '../../app/sites';
 import { address, type Schema } from '../../lib/api';
 import { counted, percent } from '../../lib/format';
-import { Chart, type Series } from '../../ui/chart';
+import { type Series, SeriesChart } from '../../ui/series_chart';
 import { EmptyState, Loaded } from '../../ui/states';
 import { Time } from '../../ui/time';
 
@@ -48,7 +47,6 @@ export function CoveragePanel({ zone }: { zone: Schema<'Zone'> }) {
 }
 
 function CoverageChart({ items, site }: { items: readonly Coverage[]; site: string }) {
-  const time_zone = useZone(site);
   const scans = [...items].sort((one, other) => Date.parse(one.captured_at) - Date.parse(other.captured_at));
   const vantages = [...new Set(scans.map(({ vantage }) => vantage))].sort((one, other) => one - other);
   const series: Series[] = vantages.map((vantage) => ({
@@ -64,13 +62,13 @@ function CoverageChart({ items, site }: { items: readonly Coverage[]; site: stri
           <Time at={latest.captured_at} site={site} />, could judge <b>{percent(latest.share, 1)}</b> of it.
         </p>
       )}
-      <Chart
-        label={`Share of the zone that could be judged by ${counted(scans.length, 'scan')}`}
-        times_s={scans.map(({ captured_at }) => Date.parse(captured_at) / 1000)}
+      <SeriesChart
+        label={`Share that could be judged, of ${counted(scans.length, 'scan')}`}
+        site={site}
+        at_s={scans.map(({ captured_at }) => Date.parse(captured_at) / 1000)}
         series={series}
         unit="%"
         range={[0, 100]}
-        time_zone={time_zone}
       />
     </>
   );

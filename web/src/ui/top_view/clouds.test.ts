@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { type Cloud, extentOf, HeightMap, heightsOf } from './clouds';
-import { decodePoints } from './load_cloud';
+import { cloudOf } from './load_cloud';
 import { footprint } from './overlays';
 import { paintPoints } from './paint';
 
@@ -34,16 +34,19 @@ describe('the points of a site', () => {
     expect(extentOf([])).toBeUndefined();
   });
 
-  it('are read from what the daemon sends', () => {
-    const bytes = new ArrayBuffer(44 + 11 + 2 * 12 + 2);
-    const view = new DataView(bytes);
-    view.setBigUint64(8, 2n, true);
-    [1.5, -2, 3].forEach((value, axis) => view.setFloat64(16 + 8 * axis, value, true));
-    view.setUint32(40, 1, true);
-    view.setUint8(45, 9); // the length of the column's name
-    [1, 4, 2, 5, 3, 6].forEach((value, place) => view.setFloat32(55 + 4 * place, value, true));
-    const cloud = decodePoints(bytes, 7, 0.1);
-    expect([...cloud.xyz_m]).toEqual([1, 2, 3, 4, 5, 6]);
+  it('are made of the parts in which they come', () => {
+    const part = (first: number, ...numbers: number[]) => ({
+      count: numbers.length / 4,
+      total: 2,
+      first,
+      origin_m: [1.5, -2, 3] as const,
+      step_m: [0.5, 0.25, 2] as const,
+      hasClasses: false,
+      intensity: undefined,
+      records: Uint16Array.from(numbers),
+    });
+    const cloud = cloudOf([part(0, 2, 4, 1, 0), part(1, 6, 8, 0, 0)], 7, 0.1);
+    expect([...cloud.xyz_m]).toEqual([1, 1, 2, 3, 2, 0]);
     expect(cloud.origin_m).toEqual([1.5, -2, 3]);
   });
 });
