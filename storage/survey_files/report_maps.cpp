@@ -84,10 +84,14 @@ class Overlay {
   const GridLayout& layout_;
 };
 
-std::string map(const Overlay& overlay, const MapImage& image, const std::string& label) {
-  const std::string size = "width=\"" + length(overlay.width_m()) + "\" height=\"" + length(overlay.height_m()) + "\"";
-  return "<svg class=\"map\" viewBox=\"0 0 " + length(overlay.width_m()) + " " + length(overlay.height_m()) +
-         "\" role=\"img\" aria-label=\"" + escaped(label) + "\"><image " + size +
+/// @param most_px of its longer side.
+std::string map(const Overlay& overlay, const MapImage& image, const std::string& label, double most_px) {
+  const double px_a_metre = most_px / std::max(overlay.width_m(), overlay.height_m());
+  const auto sized = [&](double scale) {
+    return "width=\"" + length(scale * overlay.width_m()) + "\" height=\"" + length(scale * overlay.height_m()) + "\"";
+  };
+  return "<svg class=\"map\" " + sized(px_a_metre) + " viewBox=\"0 0 " + length(overlay.width_m()) + " " +
+         length(overlay.height_m()) + "\" role=\"img\" aria-label=\"" + escaped(label) + "\"><image " + sized(1.0) +
          " preserveAspectRatio=\"none\" href=\"" + png_data_uri(image) + "\"/>" + overlay.svg() + "</svg>";
 }
 
@@ -95,12 +99,12 @@ std::string ramp_legend() {
   std::string legend = "<ul class=\"legend\">";
   for (const RampStep& step : difference_ramp()) legend += swatch(step.colour, step.label);
   return legend + swatch(kUnchangedColour, "no change that can be told") +
-         swatch(kUnseenColour, "hatched: not seen in both") + "</ul>";
+         swatch(kUnseenColour, "white, hatched: not seen in both") + "</ul>";
 }
 
 std::string seen_legend() {
   constexpr SeenColours kColours;
-  return "<ul class=\"legend row\">" + swatch(kColours.both, "seen in both epochs") +
+  return "<ul class=\"legend below\">" + swatch(kColours.both, "seen in both epochs") +
          swatch(kColours.before, "before only") + swatch(kColours.after, "after only") +
          swatch(kColours.neither, "in neither") + "</ul>";
 }
@@ -108,6 +112,7 @@ std::string seen_legend() {
 }  // namespace
 
 std::string report_maps(const SurveyDocument& document) {
+  constexpr double kLarge_px = 700.0, kSmall_px = 420.0;
   const SurveyResult& survey = document.survey;
   const Overlay overlay(document);
   const auto figure = [](const char* size, const std::string& title, const std::string& body) {
@@ -117,13 +122,15 @@ std::string report_maps(const SurveyDocument& document) {
   html += figure("large", "Difference: how far the ground rose or fell",
                  "<div class=\"plate\">" +
                      map(overlay, difference_map(survey.before_model, survey.after_model, survey.difference),
-                         "Map of the difference") +
+                         "Map of the difference", kLarge_px) +
                      ramp_legend() + "</div>");
-  html += figure("small", "Ground before", map(overlay, height_map(survey.before_model), "Shaded ground before"));
-  html += figure("small", "Ground after", map(overlay, height_map(survey.after_model), "Shaded ground after"));
+  html += figure("small", "Ground before",
+                 map(overlay, height_map(survey.before_model), "Shaded ground before", kSmall_px));
   html +=
-      figure("small", "What was seen",
-             map(overlay, seen_map(survey.before_model, survey.after_model), "Map of what was seen") + seen_legend());
+      figure("small", "Ground after", map(overlay, height_map(survey.after_model), "Shaded ground after", kSmall_px));
+  html += figure("small", "What was seen",
+                 map(overlay, seen_map(survey.before_model, survey.after_model), "Map of what was seen", kSmall_px) +
+                     seen_legend());
   return html + "</div>";
 }
 

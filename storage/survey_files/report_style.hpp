@@ -32,13 +32,13 @@ td { border-bottom: 1px solid #e4e7ea; vertical-align: top; font-variant-numeric
 tr { break-inside: avoid; }
 td small { display: block; font-size: 11.5px; }
 table.basis code { font: 10.5px ui-monospace, "DejaVu Sans Mono", monospace; word-break: break-all; }
-.maps { display: grid; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); gap: 18px; }
+.maps { display: flex; flex-wrap: wrap; gap: 22px 26px; align-items: flex-start; }
 figure { margin: 0; break-inside: avoid; }
-figure.large { grid-column: 1 / -1; }
+figure { max-width: 100%; }
+figure.large { flex: 0 0 100%; }
 .plate { display: flex; flex-wrap: wrap; gap: 14px 18px; align-items: flex-start; }
 figcaption { font-weight: 600; margin-bottom: 6px; }
-svg.map { display: block; flex: 1 1 280px; min-width: 0; width: 100%; max-height: 620px; border: 1px solid #d4d8dc; }
-figure.small svg.map { max-height: 420px; }
+svg.map { display: block; max-width: 100%; height: auto; outline: 1px solid #d4d8dc; }
 svg.map image { image-rendering: pixelated; }
 svg.map .zone { fill: none; stroke: #111; stroke-width: 1.4; vector-effect: non-scaling-stroke; }
 svg.map .halo { fill: none; stroke: #fff; stroke-width: 3.4; vector-effect: non-scaling-stroke; stroke-opacity: .8; }
@@ -47,7 +47,7 @@ svg.map text { font-family: system-ui, "DejaVu Sans", sans-serif; font-weight: 6
   stroke: #fff; stroke-opacity: .85; stroke-linejoin: round; }
 svg.map .ruler { fill: #111; stroke: #fff; stroke-width: 1; vector-effect: non-scaling-stroke; }
 .legend { list-style: none; margin: 0; padding: 0; font-size: 12px; flex: 0 0 auto; }
-.legend.row { display: flex; flex-wrap: wrap; gap: 2px 16px; margin-top: 6px; }
+.legend.below { margin-top: 8px; }
 .legend li { display: flex; align-items: center; gap: 8px; line-height: 1.65; }
 .legend svg { width: 20px; height: 13px; flex: none; border: 1px solid #b4bac0; }
 .trends { display: grid; grid-template-columns: repeat(auto-fill, minmax(290px, 1fr)); gap: 14px 22px; }
@@ -58,11 +58,12 @@ svg.trend .bar { stroke: #7ba7d0; stroke-width: 3; } svg.trend .way { fill: none
 svg.trend .dot { fill: #215f9d; }
 .none { color: #59636e; font-style: italic; }
 footer { margin-top: 30px; border-top: 1px solid #d4d8dc; padding-top: 8px; font-size: 12px; color: #59636e; }
-@media (max-width: 520px) { body { padding: 16px 14px 32px; } h1 { font-size: 20px; } .legend { width: 100%; } }
+@media (max-width: 520px) { body { padding: 16px 14px 32px; } h1 { font-size: 20px; } .legend { width: 100%; }
+  .wide table { min-width: 600px; } }
 @media print { body { padding: 0; max-width: none; font-size: 11px; } .lead { font-size: 13px; } h1 { font-size: 20px; }
   h2 { font-size: 14px; margin-top: 20px; } table { font-size: 9.5px; } td small { font-size: 8.8px; }
-  .wide { overflow: visible; } svg.map { max-height: 150mm; } figure.small svg.map { max-height: 85mm; }
-  .maps { grid-template-columns: 1fr 1fr; } .tiles { grid-template-columns: repeat(4, 1fr); gap: 6px; }
+  .wide { overflow: visible; } .maps { gap: 14px; } figure.large svg.map { max-width: 122mm; }
+  figure.small svg.map { max-width: 84mm; } .tiles { grid-template-columns: repeat(4, 1fr); gap: 6px; }
   .tile { padding: 6px 8px; } .tile b { font-size: 14px; } .tile span { font-size: 9px; }
   .trends { grid-template-columns: 1fr 1fr 1fr; } table.basis code { font-size: 7.5px; } }
 )css";

@@ -29,6 +29,7 @@ std::string with_interval(const std::string& value, const std::string& interval)
 }
 
 std::string volume_cell(const VolumeFigure& figure, bool with_sign) {
+  if (figure.value_m3 == 0.0 && figure.sigma_m3() == 0.0) return "none";
   const double value = figure.value_m3;
   return with_interval((with_sign ? signed_text(value) : amount_text(value)) + "\u00a0m³", between_text(figure));
 }
