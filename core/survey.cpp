@@ -72,10 +72,11 @@ std::optional<ZoneMasses> masses_of(const ZoneVolumes& volumes, const std::optio
 void measure_zones(const SurveyInput& input, std::span<const SurveyZone> zones, SurveyResult& result) {
   const std::vector<M3c2Figures> m3c2 = m3c2_of_zones(input, zones, result.registration_m);
   const std::optional<double>& density = input.definition.density_t_per_m3;
+  const ChangedGround ground = changed_ground(result.before_model, result.after_model);
   for (std::size_t z = 0; z < zones.size(); ++z) {
     ZoneFigures& figures = result.zones.emplace_back();
     figures.zone = zones[z];
-    figures.volumes = volumes_between(result.before_model, result.after_model, zones[z].prism);
+    figures.volumes = volumes_between(result.before_model, result.after_model, ground, zones[z].prism);
     figures.m3c2 = m3c2[z];
     figures.masses = masses_of(figures.volumes, density);
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/changed_ground.hpp"
 #include "core/error.hpp"
 
 namespace raywatch {
@@ -65,12 +64,12 @@ class VolumeSum {
 /// One zone's figures while cells are added.
 class ZoneSum {
  public:
-  ZoneSum(const ElevationModel& before, const ElevationModel& after, const Prism& prism,
+  ZoneSum(const ElevationModel& before, const ElevationModel& after, const ChangedGround& ground, const Prism& prism,
           const GroundSteepness& steepness)
       : before_(before),
         after_(after),
         prism_(prism),
-        ground_(changed_ground(before, after)),
+        ground_(ground),
         earlier_(ground_bounds(before, prism, steepness)),
         later_(ground_bounds(after, prism, steepness)),
         cut_(before, after),
@@ -132,7 +131,7 @@ class ZoneSum {
   const ElevationModel& before_;
   const ElevationModel& after_;
   const Prism& prism_;
-  ChangedGround ground_;
+  const ChangedGround& ground_;
   std::vector<HeightBounds> earlier_, later_;
   VolumeSum cut_, fill_, changed_, net_;
   ZoneVolumes sums_;
@@ -149,7 +148,13 @@ void check_layouts(const ElevationModel& before, const ElevationModel& after) {
 ZoneVolumes volumes_between(const ElevationModel& before, const ElevationModel& after, const Prism& prism,
                             const GroundSteepness& steepness) {
   check_layouts(before, after);
-  ZoneSum sum(before, after, prism, steepness);
+  return volumes_between(before, after, changed_ground(before, after), prism, steepness);
+}
+
+ZoneVolumes volumes_between(const ElevationModel& before, const ElevationModel& after, const ChangedGround& ground,
+                            const Prism& prism, const GroundSteepness& steepness) {
+  check_layouts(before, after);
+  ZoneSum sum(before, after, ground, prism, steepness);
   for (std::size_t cell = 0; cell < before.cells.size(); ++cell) {
     const double share = share_of_cell(prism, before.layout, cell);
     if (share > 0.0) sum.add(cell, share * before.layout.cell_area_m2());

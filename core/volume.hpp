@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 
+#include "core/changed_ground.hpp"
 #include "core/elevation_model.hpp"
 #include "core/ground_bounds.hpp"
 #include "core/zone.hpp"
@@ -76,9 +77,13 @@ struct ZoneVolumes {
 /// topographic change: error propagation and the role of thresholding", Earth Surface Processes and Landforms 44
 /// (2019), with the systematic term by station instead of one constant for the whole map. For cut, fill and
 /// `changed_net` the covariance of the poses is that which the unchanged ground leaves (`PoseErrors`).
-/// @throws InvalidInput when the models differ in their layout.
+/// @throws InvalidInput when the models differ in their layout, or as `ground_bounds` does.
 ZoneVolumes volumes_between(const ElevationModel& before, const ElevationModel& after, const Prism& prism,
                             const GroundSteepness& steepness = {});
+
+/// The same with what changed between the models, which of several zones is found once.
+ZoneVolumes volumes_between(const ElevationModel& before, const ElevationModel& after, const ChangedGround& ground,
+                            const Prism& prism, const GroundSteepness& steepness = {});
 
 /// The net over given cells of the grid, such as the footprint of one change.
 struct FootprintVolume {

@@ -20,7 +20,7 @@ MAY_INCLUDE = {
 
 # System headers (as whole names, or as folders that end in a slash), and the only folders that may use them.
 ONLY_IN = [
-    (("sqlite3.h", "zstd.h", "pcl/"), {"storage"}),
+    (("sqlite3.h", "zstd.h", "pcl/", "gdal.h", "proj.h", "png.h", "minizip/"), {"storage"}),
     (("toml++/",), {"config"}),
     (("CLI/",), {"server"}),
     (("httplib.h", "spdlog/"), {"api", "server"}),

@@ -1,0 +1,34 @@
+#include "core/output_frame.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace raywatch {
+
+void check_grid(const MineGrid& grid) {
+  std::vector<FieldError> errors;
+  if (!grid.site_origin_m.allFinite()) errors.push_back({"site_origin_m", "must be three numbers"});
+  if (!grid.grid_origin_m.allFinite()) errors.push_back({"grid_origin_m", "must be three numbers"});
+  if (!std::isfinite(grid.rotation_rad)) errors.push_back({"rotation_deg", "must be a number"});
+  if (!(grid.scale >= 0.9 && grid.scale <= 1.1)) errors.push_back({"scale", "must be 0.9..1.1; 1 does not stretch"});
+  if (!errors.empty()) throw InvalidInput("The mine grid is not one.", errors);
+}
+
+Eigen::Vector3d OutputFrame::output_from_local(const Eigen::Vector3d& local_m) const {
+  const Eigen::Vector3d site_m = site_from_local(local_m);
+  if (!grid) return site_m;
+  Eigen::Vector3d from_origin_m = site_m - grid->site_origin_m;
+  from_origin_m.head<2>() = grid->scale * (Eigen::Rotation2Dd(grid->rotation_rad) * from_origin_m.head<2>());
+  return grid->grid_origin_m + from_origin_m;
+}
+
+Eigen::Vector3d OutputFrame::local_from_output(const Eigen::Vector3d& output_m) const {
+  if (!grid) return output_m - origin_m;
+  Eigen::Vector3d from_origin_m = output_m - grid->grid_origin_m;
+  from_origin_m.head<2>() = Eigen::Rotation2Dd(-grid->rotation_rad) * from_origin_m.head<2>() / grid->scale;
+  return grid->site_origin_m + from_origin_m - origin_m;
+}
+
+}  // namespace raywatch
