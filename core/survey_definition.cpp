@@ -84,7 +84,7 @@ void check_definition(const SurveyDefinition& definition) {
   check.within(tolerance.uncertainty.position_m, 1e-4, 10.0, "tolerance.position_m", "0.0001 to 10");
   check.within(tolerance.uncertainty.angle_rad, 1e-7, 0.2, "tolerance.angle_deg", "0.00001 to 10");
   for (std::size_t i = 0; i < definition.thresholds.size(); ++i) {
-    check.thresholds(definition.thresholds[i], "thresholds[" + std::to_string(i) + "]");
+    check.thresholds(definition.thresholds[i], "thresholds." + std::to_string(i));
   }
   check.finish();
 }

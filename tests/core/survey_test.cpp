@@ -214,7 +214,7 @@ TEST_CASE("a definition that is out of range says every field") {
   } catch (const InvalidInput& error) {
     std::vector<std::string> fields;
     for (const FieldError& wrong : error.fields()) fields.push_back(wrong.field);
-    CHECK(fields == std::vector<std::string>{"cell_m", "density_t_per_m3", "reference.days", "thresholds[0].orange"});
+    CHECK(fields == std::vector<std::string>{"cell_m", "density_t_per_m3", "reference.days", "thresholds.0.orange"});
   }
   check_definition({});
 }
