@@ -10,11 +10,19 @@
 #include "api/name_rules.hpp"
 #include "api/render.hpp"
 #include "storage/rules.hpp"
+#include "storage/site_crs.hpp"
 
 namespace raywatch::endpoints {
 namespace {
 
 constexpr IntegerBounds kEpsgCodes{.min = 1024, .max = 32767};
+
+/// @throws InvalidInput unless PROJ knows the code, and its coordinates are metres on a plane, as those of sites are.
+int checked_epsg(std::int64_t code) {
+  const int epsg = static_cast<int>(code);
+  require_metric(describe_crs(epsg));
+  return epsg;
+}
 
 /// What is not given is left to the one who asks.
 struct GivenEdit {
@@ -27,7 +35,7 @@ GivenEdit parse_edit(JsonObject& body) {
   SiteEdit& edit = given.edit;
   edit.time_zone = body.parsed("time_zone", checked_time_zone);
   edit.profile = body.parsed("profile", parse_profile);
-  if (const auto epsg = body.integer("epsg", kEpsgCodes)) edit.epsg = static_cast<int>(*epsg);
+  if (const auto epsg = body.integer("epsg", kEpsgCodes)) edit.epsg = checked_epsg(*epsg);
   edit.origin_m = body.vector3("origin_m");
   if (auto retention = body.object("retention")) {
     given.retention = parse_limits(*retention);

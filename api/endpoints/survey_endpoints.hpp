@@ -32,5 +32,15 @@ HttpAnswer get_survey(Call& call);
 HttpAnswer get_survey_volumes(Call& call);
 HttpAnswer list_survey_changes(Call& call);
 HttpAnswer get_survey_grid(Call& call);
+HttpAnswer get_survey_difference_tiff(Call& call);
+HttpAnswer get_survey_before_tiff(Call& call);
+HttpAnswer get_survey_after_tiff(Call& call);
+HttpAnswer get_survey_before_las(Call& call);
+HttpAnswer get_survey_after_las(Call& call);
+HttpAnswer get_survey_geojson(Call& call);
+HttpAnswer get_survey_changes_csv(Call& call);
+HttpAnswer get_survey_zones_csv(Call& call);
+HttpAnswer get_survey_report(Call& call);
+HttpAnswer get_survey_bundle(Call& call);
 
 }  // namespace raywatch::endpoints

@@ -88,6 +88,27 @@ TEST_CASE(
   CHECK_GT(series["velocities"].size(), 0);
 }
 
+/// What every file of a survey begins with.
+void check_files(PitWeek& pit, const std::string& survey) {
+  const std::map<std::string, std::string> beginnings{
+      {"dod.tif", "II"},     {"before.tif", "II"},       {"after.tif", "II"},    {"before.las", "LASF"},
+      {"after.las", "LASF"}, {"changes.csv", "change,"}, {"zones.csv", "zone,"}, {"report.html", "<!DOCTYPE html>"},
+      {"bundle.zip", "PK"},  {"map.geojson", "{"},
+  };
+  for (const auto& [file, beginning] : beginnings) {
+    CAPTURE(file);
+    const Reply reply = pit.get(survey + "/" + file);
+    REQUIRE_EQ(reply.status, 200);
+    CHECK_EQ(reply.body.substr(0, beginning.size()), beginning);
+    CHECK_EQ(pit.get(survey + "/" + file, {{"If-None-Match", reply.header("ETag")}}).status, 304);
+  }
+  CHECK_EQ(json::parse(pit.get(survey + "/map.geojson").body)["type"], "FeatureCollection");
+  const Reply report = pit.get(survey + "/report.html");
+  CHECK_NE(report.header("Content-Security-Policy").find("default-src 'none'"), std::string::npos);
+  CHECK_EQ(report.body.find("<script"), std::string::npos);
+  CHECK_EQ(pit.get("/api/v1/surveys/999/bundle.zip").status, 404);
+}
+
 TEST_CASE("epochs are made by hand, accepted, compared by hand, and deleted") {
   PitWeek pit;
   for (const std::uint32_t night : {0u, 2u}) pit.upload_night(night);
@@ -119,6 +140,8 @@ TEST_CASE("epochs are made by hand, accepted, compared by hand, and deleted") {
   const std::string binary = pit.get("/api/v1/surveys/" + run["survey"].dump() + "/dod?format=bin").body;
   CHECK_EQ(binary.substr(0, 4), "RWDG");
   CHECK_EQ(binary.size(), 48 + 4 * 4 * pit.ground().columns * std::size_t{pit.ground().rows});
+
+  check_files(pit, "/api/v1/surveys/" + run["survey"].dump());
 
   const std::string place = "/api/v1/epochs/" + before.json()["id"].dump();
   CHECK_EQ(pit.post(place + "/accept", json::object()).complaint_about("by"), "is required");
