@@ -217,7 +217,7 @@ CREATE INDEX chunk_bounds ON chunks (id, azimuth_min_rad, azimuth_max_rad, eleva
   range_min_m, range_max_m) WHERE azimuth_min_rad IS NOT NULL;
 )sql";
 
-constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3, kMetadata4, kMetadata5, kMetadata6};
+constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3, kMetadata4, kMetadata5, kMetadata6, kMetadata7};
 constexpr std::array kPayloadSteps{kPayload1, kPayload2};
 
 }  // namespace

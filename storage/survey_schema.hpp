@@ -4,11 +4,11 @@
 
 namespace raywatch {
 
-/// The sixth version of the metadata: surveys. The conventions are those of schema.cpp.
+/// The seventh version of the metadata: surveys. The conventions are those of schema.cpp.
 ///
 /// What was surveyed stays when its schedule, its scans or a zone are deleted: these are plain numbers, but for the
 /// site. Of a figure, zone 0 is the total. `before_at` and `after_at` are those of the first scans of the epochs.
-inline constexpr std::string_view kMetadata6 = R"sql(
+inline constexpr std::string_view kMetadata7 = R"sql(
 CREATE TABLE schedules (
   id INTEGER PRIMARY KEY AUTOINCREMENT,
   site INTEGER NOT NULL REFERENCES sites (id),
