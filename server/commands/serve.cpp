@@ -88,6 +88,7 @@ int run_serve(const Options& options) {
   const Settings settings = settings_of(options);
   const sigset_t stop_signals = block_stop_signals();
   start_log(settings.log);
+  return_large_blocks();
   Daemon daemon(settings.daemon);
   spdlog::info("listening on {}, data in {}", url_of(settings.daemon.http, daemon.port()),
                std::filesystem::absolute(settings.daemon.data_dir).string());
