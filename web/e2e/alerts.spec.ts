@@ -65,6 +65,7 @@ test('alerts are worked through with the keyboard alone', async ({ page, yard })
   await expect(page).toHaveURL(/\/alerts\/\d+$/);
   await page.keyboard.press('a');
   // Who acts is asked once, with the keyboard, too.
+  await expect(page.getByLabel('Your name')).toBeFocused();
   await page.keyboard.type('ben');
   await page.keyboard.press('Enter');
   await expect(page.getByText('1 alert acknowledged.')).toBeVisible();
