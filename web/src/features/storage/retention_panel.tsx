@@ -121,6 +121,7 @@ const kProtected = {
   alert: 'behind an open alert',
   evidence: 'what such a scan was compared with',
   unfinished: 'in a comparison that is not finished',
+  survey: 'needed by a survey',
   anchor: 'what later poses are fitted onto',
 };
 
