@@ -1,10 +1,12 @@
 import { defineConfig } from 'vitest/config';
+import { leanThree } from './scripts/lean_three';
 
 // The daemon that `npm run dev` shows; everything that is not the dashboard's is asked there.
 const daemon = process.env['RAYWATCH_URL'] ?? 'http://127.0.0.1:8420';
 
 export default defineConfig({
   esbuild: { jsx: 'automatic', jsxImportSource: 'preact' },
+  plugins: [leanThree()],
   build: {
     // scripts/build-dashboard names the directory beside the program.
     outDir: process.env['RAYWATCH_DASHBOARD_DIR'] ?? 'dist',
