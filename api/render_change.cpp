@@ -29,7 +29,7 @@ Json render(const Snapshot& snapshot, const ChangeRecord& record) {
   Json json = {{"id", record.id.value},     {"comparison", record.comparison.value},
                {"place", record.place},     {"site", site.name},
                {"scan", record.scan.value}, {"captured_at", format_rfc3339(record.captured_at)}};
-  for (auto& [name, figure] : render_figures(record.change, origin_of(site)).items()) json[name] = std::move(figure);
+  json.update(render_figures(record.change, origin_of(site)));
   json["track"] = id_or_null(record.track);
   return json;
 }

@@ -139,8 +139,10 @@ std::optional<EpochRecord> find_epoch(const Snapshot& snapshot, EpochId id) {
 Page<EpochRecord> list_epochs(const Snapshot& snapshot, std::optional<SiteId> site, const PageRequest& page) {
   constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
   const auto [before_to, before_id] = key_before<2>(page, kList, {kMax, kMax});
-  Statement rows(database_of(snapshot), kSelect + (site ? "INDEXED BY epochs_by_site WHERE site = ? AND " : "WHERE ") +
-                                            "(to_at, id) < (?, ?) ORDER BY to_at DESC, id DESC LIMIT ?");
+  Statement rows(database_of(snapshot),
+                 kSelect +
+                     (site ? "INDEXED BY epochs_by_site WHERE site = ? AND " : "INDEXED BY epochs_by_end WHERE ") +
+                     "(to_at, id) < (?, ?) ORDER BY to_at DESC, id DESC LIMIT ?");
   if (site) rows.bind(*site);
   rows.bind(before_to, before_id, rows_to_read(page));
   std::vector<EpochRecord> epochs;

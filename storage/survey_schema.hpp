@@ -59,6 +59,7 @@ CREATE TABLE epochs (
   accepted_by TEXT, accepted_note TEXT, accepted_at INTEGER,
   created_at INTEGER NOT NULL
 ) STRICT;
+CREATE INDEX epochs_by_end ON epochs (to_at);
 CREATE INDEX epochs_by_site ON epochs (site, to_at);
 CREATE INDEX epochs_by_schedule ON epochs (schedule, to_at);
 CREATE INDEX epochs_accepted ON epochs (site) WHERE state = 'accepted';
