@@ -75,7 +75,10 @@ function startStream(): void {
     onOpen: (resumed) => {
       // What was answered before the stream stood may have changed unheard; what failed can be asked again.
       const all = !resumed && startedLate();
-      loader.invalidate((key) => all || key === '/metrics' || store.state().resources[key]?.problem !== undefined);
+      loader.invalidate((key) => {
+        const known = store.state().resources[key];
+        return all || known?.problem !== undefined || (key === '/metrics' && known?.data !== undefined);
+      });
       streamOpened();
     },
     onMessage: (message) => {
