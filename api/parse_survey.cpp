@@ -150,6 +150,33 @@ GivenSchedule parse_schedule(const nlohmann::json& json, Time now) {
   return given;
 }
 
+GivenWindow parse_window(JsonObject& body) {
+  for (const char* member : {"from", "to"}) body.require(member);
+  GivenWindow given;
+  given.from = body.time("from").value_or(Time::min());
+  given.to = body.time("to").value_or(Time::max());
+  if (given.from >= given.to) body.fail("to", "must be later than 'from'");
+  given.sensors = parse_names(body, "sensors");
+  return given;
+}
+
+EpochRecord epoch_of_window(const Snapshot& snapshot, SiteId site, const GivenWindow& window,
+                            const std::string& place) {
+  EpochRecord epoch;
+  epoch.site = site;
+  epoch.name = "from " + format_rfc3339(window.from);
+  epoch.from = window.from;
+  epoch.to = window.to;
+  const std::vector<SensorId> sensors = sensors_named(snapshot, window.sensors, site, (place + "sensors").c_str());
+  for (const ScanRecord& scan : scans_of_window(snapshot, {site, window.from, window.to, sensors})) {
+    epoch.scans.push_back(scan.id);
+  }
+  if (epoch.scans.empty()) {
+    throw InvalidInput("The epoch would be empty.", {{place + "from", "there are no scans between 'from' and 'to'"}});
+  }
+  return epoch;
+}
+
 std::vector<SensorId> sensors_named(const Snapshot& snapshot, const std::vector<std::string>& names, SiteId site,
                                     const char* member) {
   std::vector<SensorId> sensors;

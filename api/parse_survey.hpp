@@ -3,6 +3,7 @@
 // Internal: only .cpp files of api/ include this.
 #include "api/json_object.hpp"
 #include "core/survey_definition.hpp"
+#include "storage/epochs.hpp"
 #include "storage/schedules.hpp"
 #include "storage/store.hpp"
 
@@ -26,6 +27,17 @@ GivenSchedule parse_schedule(const nlohmann::json& json, Time now);
 
 /// The names of sensors, from an array of texts.
 std::vector<std::string> parse_names(JsonObject& body, const char* member);
+
+/// A time window, from the members "from", "to" and "sensors"; no sensors: all.
+struct GivenWindow {
+  Time from, to;
+  std::vector<std::string> sensors;
+};
+GivenWindow parse_window(JsonObject& body);
+/// The epoch of its scans, which is not stored yet. `place` stands before the names of members that are wrong:
+/// "before.".
+/// @throws InvalidInput naming `from` when it has no scans; NotFound of a sensor.
+EpochRecord epoch_of_window(const Snapshot& snapshot, SiteId site, const GivenWindow& window, const std::string& place);
 
 /// @{ What it names. @throws NotFound, InvalidInput.
 std::vector<SensorId> sensors_named(const Snapshot& snapshot, const std::vector<std::string>& names, SiteId site,

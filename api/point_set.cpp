@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 
+#include "api/ordered_points.hpp"
 #include "api/refinement.hpp"
 #include "api/voxel_thinning.hpp"
 #include "core/compare.hpp"
@@ -108,17 +110,40 @@ void append_moved(PointSet& set, const PointCloud& points, const Pose& to_from_p
   for (std::size_t i = 0; i < points.size(); ++i) set.push_back(moved(points[i], to_from_points));
 }
 
+PointRequest whole(const PointRequest& request) { return {.frame = request.frame, .voxel_m = request.voxel_m}; }
+
+std::size_t bytes_of(const PointSet& set) {
+  const std::size_t floats = set.x_m.size() + set.y_m.size() + set.z_m.size() + set.intensity.size();
+  const std::size_t numbers = set.change.size() + set.prior.size();
+  return sizeof(set) + 4 * (floats + numbers) + set.point_class.size() + set.free.size() + set.supported.size();
+}
+
 PointSet thinned(PointSet set, const PointRequest& request) {
   if (request.voxel_m) set = at(set, thin({set.x_m, set.y_m, set.z_m, set.point_class}, *request.voxel_m));
-  if (!request.budget) return set;
+  return set;
+}
+
+PointSet refined(const PointSet& set) {
   const CoordinatePlanes points{set.x_m, set.y_m, set.z_m};
-  const std::vector<std::uint32_t> order = refinement_order(points);
-  const std::size_t first = std::min(request.skip, order.size());
-  const std::size_t count = std::min(*request.budget, order.size() - first);
-  PointSet part = at(set, std::span(order).subspan(first, count));
-  part.quantisation = quantisation_of(points, set.intensity);
-  part.quantisation->first = first;
+  PointSet result = at(set, refinement_order(points));
+  result.quantisation = quantisation_of(points, set.intensity);
+  return result;
+}
+
+PointSet part_of(const PointSet& refined, const PointRequest& request) {
+  const std::size_t first = std::min(request.skip, refined.size());
+  std::vector<std::uint32_t> places(std::min(request.budget.value_or(refined.size()), refined.size() - first));
+  std::iota(places.begin(), places.end(), static_cast<std::uint32_t>(first));
+  PointSet part = at(refined, places);
+  if (part.quantisation) part.quantisation->first = first;
   return part;
+}
+
+std::shared_ptr<const PointSet> requested_points(OrderedPoints& kept, const std::string& key,
+                                                 const PointRequest& request, const std::function<PointSet()>& gather) {
+  if (!request.budget) return std::make_shared<const PointSet>(thinned(gather(), request));
+  const auto all = kept.get(key, [&] { return refined(thinned(gather(), request)); });
+  return std::make_shared<const PointSet>(part_of(*all, request));
 }
 
 std::string_view ending(PointFormat format) {

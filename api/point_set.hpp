@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -30,6 +31,9 @@ PointRequest parse_point_request(Query& query, Frame usual_frame);
 /// The part of an entity tag that says how the points were asked for.
 std::string text_of(const PointRequest& request);
 
+/// The request for all of the set that this one asks a part of.
+PointRequest whole(const PointRequest& request);
+
 /// Points on their way out. Columns that are empty are not written.
 struct PointSet {
   std::vector<float> x_m, y_m, z_m;
@@ -52,8 +56,19 @@ struct PointSet {
 void append_moved(PointSet& set, const PointCloud& points, const Pose& to_from_points);
 Eigen::Vector3f moved(const Eigen::Vector3f& point_m, const Pose& to_from_points);
 
-/// As few points of the set as the request wants: one a voxel (see `thin`) and class, and no more than its budget.
+std::size_t bytes_of(const PointSet& set);
+
+/// As few points of the set as the request's voxels want: one a voxel and class (see `thin`).
 PointSet thinned(PointSet set, const PointRequest& request);
+/// The finite points of a set in the order of refinement (see `refinement_order`), with their quantisation.
+PointSet refined(const PointSet& set);
+/// The part of a refined set that the request's budget wants.
+PointSet part_of(const PointSet& refined, const PointRequest& request);
+
+class OrderedPoints;
+/// The points that a request wants of all that `gather` gives. @param key names that set, for `kept`.
+std::shared_ptr<const PointSet> requested_points(OrderedPoints& kept, const std::string& key,
+                                                 const PointRequest& request, const std::function<PointSet()>& gather);
 
 /// Streams the points; `name` is the suggested file name without its ending.
 HttpAnswer point_answer(std::shared_ptr<const PointSet> set, PointFormat format, const std::string& name);

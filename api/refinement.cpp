@@ -27,6 +27,21 @@ std::uint64_t spread(std::uint64_t index) {
   return (index | index << 2U) & 0x0000'2492'4924'9249ULL;
 }
 
+/// By counting, ten bits at a time from the lowest, each time keeping the order among equals.
+void sort_by_code(std::vector<Coded>& coded) {
+  constexpr unsigned kDigitBits = 10, kDigits = (3 * kBits + kDigitBits - 1) / kDigitBits;
+  constexpr std::size_t kValues = std::size_t{1} << kDigitBits;
+  std::vector<Coded> sorted(coded.size());
+  for (unsigned digit = 0; digit < kDigits; ++digit) {
+    const auto value_of = [&](const Coded& c) { return c.code >> (digit * kDigitBits) & (kValues - 1); };
+    std::array<std::size_t, kValues + 1> first{};
+    for (const Coded& c : coded) ++first[value_of(c) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    for (const Coded& c : coded) sorted[first[value_of(c)]++] = c;
+    coded.swap(sorted);
+  }
+}
+
 std::vector<Coded> sorted_by_code(const CoordinatePlanes& points) {
   const Quantisation around = quantisation_of(points, {});
   std::vector<Coded> coded;
@@ -43,8 +58,7 @@ std::vector<Coded> sorted_by_code(const CoordinatePlanes& points) {
     coded.push_back({spread(cell(offset_m.x())) | spread(cell(offset_m.y())) << 1U | spread(cell(offset_m.z())) << 2U,
                      static_cast<std::uint32_t>(i)});
   }
-  std::ranges::sort(
-      coded, [](const Coded& a, const Coded& b) { return a.code != b.code ? a.code < b.code : a.place < b.place; });
+  sort_by_code(coded);
   return coded;
 }
 

@@ -177,16 +177,17 @@ Json render(const Snapshot& snapshot, const EpochRecord& epoch) {
           {"created_at", format_rfc3339(epoch.created_at)}};
 }
 
-Json render(const Snapshot& snapshot, const SurveyRecord& survey, const SurveyResult& result) {
+Json render(const ListedSurvey& listed) {
+  const SurveyRecord& survey = listed.record;
   return {{"id", survey.id.value},
-          {"site", site_with(snapshot, survey.site).name},
+          {"site", listed.site},
           {"schedule", id_or_null(survey.schedule)},
           {"run", survey.run.value},
           {"before", {{"epoch", survey.before.value}, {"captured_at", format_rfc3339(survey.before_at)}}},
           {"after", {{"epoch", survey.after.value}, {"captured_at", format_rfc3339(survey.after_at)}}},
           {"made_at", format_rfc3339(survey.made_at)},
-          {"total", render(result.total)},
-          {"warnings", result.warnings}};
+          {"total", render(listed.result.total)},
+          {"warnings", listed.result.warnings}};
 }
 
 Json render_ground(const Snapshot& snapshot, const SurveyRecord& survey, const SurveyResult& result) {

@@ -16,7 +16,7 @@ Json render(const Snapshot& snapshot, const ScheduleRecord& schedule, const std:
 Json render(const Snapshot& snapshot, const RunRecord& run);
 Json render(const Snapshot& snapshot, const EpochRecord& epoch);
 /// With the total of its figures.
-Json render(const Snapshot& snapshot, const SurveyRecord& survey, const SurveyResult& result);
+Json render(const ListedSurvey& survey);
 /// What it rests on: scans, parameters, registration.
 Json render_ground(const Snapshot& snapshot, const SurveyRecord& survey, const SurveyResult& result);
 Json render(const ZoneFigures& figures);

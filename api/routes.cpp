@@ -114,6 +114,8 @@ constexpr Route kRoutes[] = {
     {"GET", "/api/v1/surveys", endpoints::list_surveys, "Lists the surveys"},
     {"GET", "/api/v1/surveys/runs", endpoints::list_survey_runs, "Lists the runs of surveys, whatever began them"},
     {"GET", "/api/v1/surveys/runs/{id}", endpoints::get_survey_run, "One run of a survey, with its log"},
+    {"POST", "/api/v1/surveys/runs/{id}/cancel", endpoints::cancel_survey_run,
+     "Cancels a run that waits or is running"},
     {"GET", "/api/v1/surveys/series", endpoints::get_survey_series, "One figure through time, and how fast it changes"},
     {"GET", "/api/v1/surveys/{id}", endpoints::get_survey, "One survey, and what it rests on"},
     {"GET", "/api/v1/surveys/{id}/volumes", endpoints::get_survey_volumes, "The figures of each zone, and in total"},

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "api/ordered_points.hpp"
 #include "core/time.hpp"
 #include "storage/channels.hpp"
 #include "storage/comparisons.hpp"
@@ -87,6 +89,7 @@ struct Services {
   std::function<Time()> now;
   std::function<void(const std::string&)> report = {};  ///< takes note of a request that failed by the daemon's fault
   RetentionLimits retention_defaults = {};              ///< of sites that say nothing else
+  std::shared_ptr<OrderedPoints> ordered_points = std::make_shared<OrderedPoints>(std::size_t{384} << 20);
 };
 
 }  // namespace raywatch

@@ -1,5 +1,7 @@
 #include "core/choose_priors.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cstdio>
 
@@ -43,17 +45,18 @@ Gain gain_of(const Cover& cover, const std::vector<std::uint8_t>& times_covered,
 
 std::vector<Eigen::Vector3d> sample_world_points(const PointCloud& points, const Pose& world_from_sensor,
                                                  const UsableRange& usable, std::size_t count) {
-  std::vector<std::size_t> usable_points;
-  usable_points.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (is_usable(points[i].cast<double>().norm(), usable)) usable_points.push_back(i);
-  }
-  const std::size_t taken = std::min(count, usable_points.size());
+  const std::size_t taken = std::min(count, points.size());
   std::vector<Eigen::Vector3d> sample_m;
   sample_m.reserve(taken);
   for (std::size_t k = 0; k < taken; ++k) {
-    const std::size_t i = usable_points[k * usable_points.size() / taken];
-    sample_m.push_back(world_from_sensor * points[i].cast<double>());
+    // The first usable point of each of as many equal parts of the scan.
+    const std::size_t end = (k + 1) * points.size() / taken;
+    for (std::size_t i = k * points.size() / taken; i < end; ++i) {
+      const Eigen::Vector3d point_m = points[i].cast<double>();
+      if (!is_usable(point_m.norm(), usable)) continue;
+      sample_m.push_back(world_from_sensor * point_m);
+      break;
+    }
   }
   return sample_m;
 }
@@ -63,9 +66,11 @@ std::vector<CandidateAssessment> choose_priors(std::span<const Eigen::Vector3d> 
                                                const ChoiceParameters& parameters) {
   std::vector<CandidateAssessment> assessments(candidates.size());
   std::vector<Cover> covers(candidates.size());
+  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t c) {
+    covers[c] = covered(*candidates[c].coverage, candidates[c].world_from_sensor.inverse(), sample_m);
+  });
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     CandidateAssessment& assessment = assessments[c];
-    covers[c] = covered(*candidates[c].coverage, candidates[c].world_from_sensor.inverse(), sample_m);
     assessment.distance_m = (candidates[c].world_from_sensor.position_m - world_from_sensor.position_m).norm();
     assessment.age = captured_at - candidates[c].captured_at;
     assessment.overlap =

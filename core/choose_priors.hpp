@@ -41,7 +41,7 @@ struct ChoiceParameters {
   double repeat_weight = 0.1;  ///< worth of seeing a point again that one other prior covers; halved for two, and so on
 };
 
-/// At most `count` usable points of the scan, evenly spread over the order of the scan, in the world frame.
+/// Usable points of the scan in the world frame: the first of each of `count` equal parts of its order that has one.
 std::vector<Eigen::Vector3d> sample_world_points(const PointCloud& points, const Pose& world_from_sensor,
                                                  const UsableRange& usable, std::size_t count);
 

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <tuple>
 
 #include "core/assumed_sensor.hpp"
+#include "core/marked_points.hpp"
 #include "core/returns_near.hpp"
 
 namespace raywatch {
@@ -37,13 +39,13 @@ class Growth {
 
   std::vector<ClassedPoint> operator()(std::span<const ClassedPoint> seeds, std::span<const Candidate> candidates,
                                        const IsOpen& is_open) {
-    visited_.assign(view_.points.size(), 0);
+    visited_.emplace(view_, sources_);
     candidate_.assign(view_.points.size(), 0);
     for (const Candidate& candidate : candidates) candidate_[candidate.index] = !candidate.contradicted;
     std::vector<Joined> front;
     for (const ClassedPoint& seed : seeds) {
       front.push_back({seed.index, seed.index, seed.point_class});
-      visited_[seed.index] = 1;
+      visited_->mark(seed.index);
     }
     std::vector<ClassedPoint> changed;
     while (!front.empty()) {
@@ -51,7 +53,7 @@ class Growth {
       const std::vector<Joined> offered = beside(front);
       std::vector<std::uint32_t> places;
       for (const Joined& offer : offered) {
-        visited_[offer.index] = 1;
+        visited_->mark(offer.index);
         places.push_back(offer.index);
       }
       const std::vector<std::uint8_t> open = is_open(places);
@@ -96,21 +98,21 @@ class Growth {
     const double ratio = reach / place_m.norm();
     const float farthest_m = std::max(static_cast<float>(parameters_.growth_distance_m), reach);
     std::vector<Neighbour> result;
-    for_each_return_near(index, place_m.cast<double>(), ratio < 1.0 ? std::asin(ratio) : std::numbers::pi / 2,
-                         [&](std::uint32_t i) {
-                           const Eigen::Vector3f p = point_of(index.returns[i]).cast<float>();
-                           if ((p - place_m).squaredNorm() >= reach * reach || visited_[sources_[i]]) return;
-                           const float distance_m = (p - seed_m).norm();
-                           if (distance_m <= farthest_m)
-                             result.push_back({{sources_[i], from.seed, from.point_class}, distance_m});
-                         });
+    const auto offer = [&](std::uint32_t i) {
+      const Eigen::Vector3f p = point_of(index.returns[i]).cast<float>();
+      if ((p - place_m).squaredNorm() >= reach * reach || (*visited_)[sources_[i]]) return;
+      const float distance_m = (p - seed_m).norm();
+      if (distance_m <= farthest_m) result.push_back({{sources_[i], from.seed, from.point_class}, distance_m});
+    };
+    for_each_return_near(index, place_m.cast<double>(), ratio < 1.0 ? std::asin(ratio) : std::numbers::pi / 2, offer,
+                         [&](std::uint32_t cell) { return visited_->some_left_in(cell); });
     return result;
   }
 
   const ScanView& view_;
   std::span<const std::uint32_t> sources_;
   const CompareParameters& parameters_;
-  std::vector<std::uint8_t> visited_;
+  std::optional<MarkedPoints> visited_;
   std::vector<std::uint8_t> candidate_;  ///< free, though perhaps in no sure cluster
 };
 

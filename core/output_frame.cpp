@@ -31,4 +31,16 @@ Eigen::Vector3d OutputFrame::local_from_output(const Eigen::Vector3d& output_m) 
   return grid->site_origin_m + from_origin_m - origin_m;
 }
 
+CellTransform cell_transform(const GridLayout& layout, const OutputFrame& frame) {
+  const auto out_m = [&](double columns, double rows) {
+    const Eigen::Vector2d local_m = layout.origin_m + layout.cell_m * Eigen::Vector2d(columns, rows);
+    return Eigen::Vector2d(frame.output_from_local({local_m.x(), local_m.y(), 0.0}).head<2>());
+  };
+  // Steps over the whole grid, so that rounding of large coordinates does not add up.
+  const Eigen::Vector2d corner_m = out_m(0.0, 0.0);
+  return {.corner_m = corner_m,
+          .a_column_m = (out_m(layout.columns, 0.0) - corner_m) / layout.columns,
+          .a_row_m = (out_m(0.0, layout.rows) - corner_m) / layout.rows};
+}
+
 }  // namespace raywatch

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "core/grid_layout.hpp"
+
 namespace raywatch {
 
 /// The grid of a mine, beside the coordinates of its site: turned, stretched and moved, heights only moved.
@@ -27,5 +29,12 @@ struct OutputFrame {
   Eigen::Vector3d output_from_local(const Eigen::Vector3d& local_m) const;
   Eigen::Vector3d local_from_output(const Eigen::Vector3d& output_m) const;
 };
+
+/// From columns and rows of a grid of cells, counted from its corner of least x and y in the order of its cells, to
+/// output coordinates: corner_m + column * a_column_m + row * a_row_m.
+struct CellTransform {
+  Eigen::Vector2d corner_m, a_column_m, a_row_m;
+};
+CellTransform cell_transform(const GridLayout& layout, const OutputFrame& frame);
 
 }  // namespace raywatch

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -37,11 +38,21 @@ std::uint16_t encode(double range_m) {
   return static_cast<std::uint16_t>(1 + std::lround(std::min(1000.0 * std::log2(1.0 + range_m), 65534.0)));
 }
 
+/// The ranges of all codes: looking one up is far quicker than computing it, and millions are asked for.
+const std::vector<double>& decoded_ranges_m() {
+  static const std::vector<double> ranges_m = [] {
+    std::vector<double> all{0.0};
+    for (int code = 1; code <= std::numeric_limits<std::uint16_t>::max(); ++code) {
+      all.push_back(std::exp2((code - 1) / 1000.0) - 1.0);
+    }
+    return all;
+  }();
+  return ranges_m;
+}
+
 }  // namespace
 
-double Panorama::range_m(std::size_t cell) const {
-  return farthest[cell] == 0 ? 0.0 : std::exp2((farthest[cell] - 1) / 1000.0) - 1.0;
-}
+double Panorama::range_m(std::size_t cell) const { return decoded_ranges_m()[farthest[cell]]; }
 
 Panorama make_panorama(const PointCloud& points, const UsableRange& usable) {
   std::vector<float> farthest_m(Panorama::kRows * Panorama::kColumns, 0.0f);
@@ -88,8 +99,9 @@ std::vector<std::uint8_t> covered(const Panorama& panorama, const Pose& sensor_f
     local.push_back(p.x(), p.y(), p.z());
   }
   std::vector<std::uint8_t> inside(points_m.size());
+  const std::vector<double>& ranges_m = decoded_ranges_m();
   for_each_cell(planes_of(local), [&](std::size_t i, float range_m, std::size_t cell) {
-    const double seen_m = panorama.range_m(cell);
+    const double seen_m = ranges_m[panorama.farthest[cell]];
     inside[i] = seen_m > 0.0 && range_m <= seen_m * (1.0 + kBehind) + kBehind;
   });
   return inside;

@@ -1,10 +1,14 @@
 #include "core/prior_changes.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
-#include <unordered_map>
+#include <limits>
+#include <optional>
 
 #include "core/fold.hpp"
 #include "core/grow.hpp"
+#include "core/marked_points.hpp"
 #include "core/returns_near.hpp"
 
 namespace raywatch {
@@ -26,7 +30,7 @@ struct PriorState {
   std::vector<ClassedPoint> seeds;
   std::vector<std::uint32_t> sources;  ///< of the prior's returns; only if anything grows
   std::vector<ClassedPoint> grown;     ///< from the seeds
-  std::vector<std::uint8_t> is_grown;  ///< one a point
+  std::optional<MarkedPoints> is_grown;
 };
 
 class PriorSearch {
@@ -76,8 +80,8 @@ class PriorSearch {
     PriorState& state = states_[p];
     state.sources = sources_of(prior.index.impl(), prior.points);
     state.grown = grow(prior, state.sources, state.seeds, state.candidates, parameters_, is_open_in(p));
-    state.is_grown.assign(prior.points.size(), 0);
-    for (const ClassedPoint& point : state.grown) state.is_grown[point.index] = 1;
+    state.is_grown.emplace(prior, state.sources);
+    for (const ClassedPoint& point : state.grown) state.is_grown->mark(point.index);
   }
 
   std::vector<std::uint32_t> changed_points(std::uint32_t p) {
@@ -104,7 +108,7 @@ class PriorSearch {
     }
     std::vector<std::uint32_t> places;
     for (std::uint32_t i = 0; i < beside.size(); ++i) {
-      if (beside[i] && !states_[p].is_grown[i]) places.push_back(i);
+      if (beside[i]) places.push_back(i);
     }
     const std::vector<std::uint8_t> open = open_at(p, places);
     std::vector<std::uint32_t> shown;
@@ -114,31 +118,40 @@ class PriorSearch {
     return shown;
   }
 
-  /// Marks the points of prior `p` within reach of a changed point of prior `q` and nearer to it than to any other
-  /// point of it.
+  /// Marks the points of prior `p` that have not changed yet, lie within reach of a changed point of prior `q`, and
+  /// nearer to it than to any other point of that.
   void mark_beside(std::uint32_t q, std::uint32_t p, std::vector<std::uint8_t>& beside) const {
+    const PriorState& state = states_[p];
     const PriorIndex::Impl& index = priors_[p].index.impl();
     const Pose p_from_q = priors_[p].world_from_sensor.inverse() * priors_[q].world_from_sensor;
-    std::unordered_map<std::uint32_t, double> distance_m;  // of places in prior p from the nearest changed point
+    constexpr double kFar_m = std::numeric_limits<double>::infinity();
+    std::vector<double> distance_m(beside.size(), kFar_m);  // of the points of p from the nearest changed one of q
+    std::vector<std::uint32_t> places;
     for (const ClassedPoint& changed : states_[q].grown) {
       const Eigen::Vector3d changed_m = p_from_q * priors_[q].points[changed.index].cast<double>();
-      for_each_return_around(index, changed_m, reach_m(priors_[p], changed_m.cast<float>(), parameters_),
-                             [&](std::uint32_t i) {
-                               const double here_m = (point_of(index.returns[i]) - changed_m).norm();
-                               const auto [at, is_new] = distance_m.try_emplace(states_[p].sources[i], here_m);
-                               if (!is_new) at->second = std::min(at->second, here_m);
-                             });
+      const auto offer = [&](std::uint32_t i) {
+        const std::uint32_t place = state.sources[i];
+        if ((*state.is_grown)[place]) return;
+        if (distance_m[place] == kFar_m) places.push_back(place);
+        distance_m[place] = std::min(distance_m[place], (point_of(index.returns[i]) - changed_m).norm());
+      };
+      for_each_return_around(index, changed_m, reach_m(priors_[p], changed_m.cast<float>(), parameters_), offer,
+                             [&](std::uint32_t cell) { return state.is_grown->some_left_in(cell); });
     }
     const Pose q_from_p = p_from_q.inverse();
-    for (const auto& [place, here_m] : distance_m) {
-      if (!is_nearer_to_another(q, q_from_p * priors_[p].points[place].cast<double>(), here_m)) beside[place] = 1;
-    }
+    tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t k) {
+      const Eigen::Vector3d place_m = q_from_p * priors_[p].points[places[k]].cast<double>();
+      if (!is_nearer_to_another(q, place_m, distance_m[places[k]])) beside[places[k]] = 1;
+    });
   }
 
   bool is_nearer_to_another(std::uint32_t q, const Eigen::Vector3d& place_m, double distance_m) const {
+    const PriorState& state = states_[q];
     bool near = false;
-    for_each_return_around(priors_[q].index.impl(), place_m, distance_m,
-                           [&](std::uint32_t i) { near |= states_[q].is_grown[states_[q].sources[i]] == 0; });
+    for_each_return_around(
+        priors_[q].index.impl(), place_m, distance_m,
+        [&](std::uint32_t i) { near |= !(*state.is_grown)[state.sources[i]]; },
+        [&](std::uint32_t cell) { return !near && state.is_grown->some_left_in(cell); });
     return near;
   }
 

@@ -53,6 +53,26 @@ void take_prior_points(const Detection& part, const PriorGroup& group, std::size
   }
 }
 
+/// Takes out what a prior saw that shows what is normal only together with the others, and another one saw free.
+void drop_never_normal(const PriorGroup& group, Detection& detection) {
+  if (group.normal_together.empty()) return;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < detection.prior_points.size(); ++k) {
+    const bool others_saw_it_free = detection.prior_votes[k].free > 1;  // the compared scan is one of them
+    if (others_saw_it_free && group.normal_together[detection.prior_points[k].prior]) continue;
+    detection.prior_points[kept] = detection.prior_points[k];
+    detection.prior_votes[kept++] = detection.prior_votes[k];
+  }
+  detection.prior_points.resize(kept);
+  detection.prior_votes.resize(kept);
+}
+
+Detection detect_in(const ScanView& scan, const PriorGroup& group, const CompareParameters& parameters) {
+  Detection detection = detect(scan, group.priors, parameters);
+  drop_never_normal(group, detection);
+  return detection;
+}
+
 double testable_share(const Detection& detection) {
   std::size_t valid = 0, testable = 0;
   for (std::size_t i = 0; i < detection.classes.size(); ++i) {
@@ -75,7 +95,7 @@ std::vector<ScanView> all_priors(std::span<const PriorGroup> groups) {
 Detection detect_in_regions(const ScanView& scan, std::span<const PriorGroup> groups,
                             const CompareParameters& parameters) {
   if (groups.empty()) return detect(scan, {}, parameters);
-  if (groups.size() == 1 && !groups.front().region_m) return detect(scan, groups.front().priors, parameters);
+  if (groups.size() == 1 && !groups.front().region_m) return detect_in(scan, groups.front(), parameters);
   const Speakers speakers(groups);
   std::vector<std::size_t> speaker(scan.points.size());
   for (std::size_t i = 0; i < speaker.size(); ++i) {
@@ -87,7 +107,7 @@ Detection detect_in_regions(const ScanView& scan, std::span<const PriorGroup> gr
   merged.supported.assign(speaker.size(), 0);
   std::uint32_t first_prior = 0;
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const Detection part = detect(scan, groups[g].priors, parameters);
+    const Detection part = detect_in(scan, groups[g], parameters);
     take_answers(part, speaker, g, merged);
     take_prior_points(part, groups[g], g, speakers, first_prior, merged);
     merged.angle_rad.insert(merged.angle_rad.end(), part.angle_rad.begin(), part.angle_rad.end());

@@ -13,6 +13,9 @@ namespace raywatch {
 struct PriorGroup {
   std::vector<ScanView> priors;
   std::optional<Eigen::AlignedBox3d> region_m;  ///< world; not given: wherever no other group speaks
+  /// Per prior, or empty for none: it shows what is normal only together with all others of the group. What it saw and
+  /// another one saw free, such as somebody who passed by or a twig in a gust, was never normal and cannot be missed.
+  std::vector<bool> normal_together = {};
 };
 
 /// `detect` against priors of which each has a say only about its own part of the world: about a place the last group

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,6 +55,24 @@ ComparisonCandidate candidate_record(const ScanRecord& scan, const CandidateAsse
           .reason = assessment.reason};
 }
 
+/// For each prior, whether it and those before it were learned as normal at one time: what it alone saw was passing.
+/// What an operator added to the baseline, or another vantage learned later, is normal by itself.
+std::vector<bool> normal_together(std::span<const LoadedScan> scans, std::span<const ComparisonPrior> priors,
+                                  const std::set<ScanId>& learned) {
+  constexpr std::chrono::hours kOneTime{24};
+  std::vector<bool> result;
+  for (std::size_t p = 0; p < scans.size(); ++p) {
+    const auto belongs = [&](std::size_t q) {
+      const Duration earlier = scans[p].captured_at - scans[q].captured_at;
+      return earlier < Duration::zero() || (learned.contains(priors[q].scan) && earlier <= kOneTime);
+    };
+    bool together = true;
+    for (std::size_t q = 0; q < scans.size(); ++q) together = together && belongs(q);
+    result.push_back(together);
+  }
+  return result;
+}
+
 void log_registration(const ScanRecord& scan, const ComparisonResult& result) {
   if (!result.registration) return;
   const RegistrationState state = result.registration->state;
@@ -74,6 +93,7 @@ struct ComparisonRunner::Subject {
 struct ComparisonRunner::Choice {
   std::vector<ScanRecord> offered;
   std::vector<CandidateAssessment> assessments;
+  std::set<ScanId> learned;            ///< of those offered: among the first of their vantage
   std::vector<BaselinePatch> patches;  ///< of the reference `baseline`, whose scans speak within a region only
 };
 
@@ -108,7 +128,7 @@ void ComparisonRunner::run(const Job& job, tbb::task_arena& arena) {
   result.timings_ms["align"] = watch.lap_ms();
   progress.set(0.1);
 
-  const Choice choice = choose(subject, scan);
+  const Choice choice = choose(subject, scan, arena);
   result.timings_ms["choose"] = watch.lap_ms();
   progress.set(0.2);
 
@@ -168,7 +188,8 @@ void ComparisonRunner::register_scan(Subject& subject, LoadedScan& scan, tbb::ta
   std::ranges::copy(registration_warnings(subject.scan), std::back_inserter(result.warnings));
 }
 
-ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const LoadedScan& scan) const {
+ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const LoadedScan& scan,
+                                                  tbb::task_arena& arena) const {
   const Reference& reference = subject.comparison.reference;
   // Two scans that see equally far overlap nowhere when they are farther apart than this.
   const double radius_m = 2.0 * reach_m(*loader_.panorama(subject.scan));
@@ -177,11 +198,11 @@ ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const 
                                .previous_limit = config_.previous_limit};
   const bool refined = refines_poses(subject.comparison.parameters);
   Choice choice;
-  choice.offered = store_.read([&](const Snapshot& snapshot) {
-    if (std::holds_alternative<BaselineReference>(reference)) {
-      choice.patches = resolve_patches(snapshot, subject.scan, subject.site, radius_m);
-    }
-    return resolve_reference(snapshot, subject.scan, subject.site, reference, limits);
+  store_.read([&](const Snapshot& snapshot) {
+    choice.offered = resolve_reference(snapshot, subject.scan, subject.site, reference, limits);
+    if (!std::holds_alternative<BaselineReference>(reference)) return;
+    choice.patches = resolve_patches(snapshot, subject.scan, subject.site, radius_m);
+    choice.learned = learned_among(snapshot, subject.site.id, choice.offered);
   });
   std::vector<PriorCandidate> candidates;
   for (const ScanRecord& offered : choice.offered) {
@@ -195,7 +216,8 @@ ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const 
   }
   const std::vector<Eigen::Vector3d> sample_m = sample_world_points(
       scan.indexed->points, scan.world_from_sensor, scan.indexed->index.usable(), config_.choice.sample_points);
-  choice.assessments = choose_priors(sample_m, scan.world_from_sensor, scan.captured_at, candidates, config_.choice);
+  choice.assessments = arena.execute(
+      [&] { return choose_priors(sample_m, scan.world_from_sensor, scan.captured_at, candidates, config_.choice); });
   return choice;
 }
 
@@ -213,6 +235,7 @@ ComparisonRunner::LoadedPriors ComparisonRunner::load_priors(const Subject& subj
     result.candidates.push_back(candidate_record(choice.offered[i], assessment));
     if (assessment.chosen) add(choice.offered[i], assessment.overlap, everywhere);
   }
+  everywhere.normal_together = normal_together(priors.scans, result.priors, choice.learned);
   priors.groups.push_back(std::move(everywhere));
   for (const BaselinePatch& patch : choice.patches) {
     PriorGroup group{.priors = {}, .region_m = patch.region_m};

@@ -43,7 +43,7 @@ class ComparisonRunner {
   Subject read_subject(const Job& job) const;
   /// Refines the scan's pose, the first time that it is compared.
   void register_scan(Subject& subject, LoadedScan& scan, tbb::task_arena& arena, ComparisonResult& result) const;
-  Choice choose(const Subject& subject, const LoadedScan& scan) const;
+  Choice choose(const Subject& subject, const LoadedScan& scan, tbb::task_arena& arena) const;
   LoadedPriors load_priors(const Subject& subject, const Choice& choice, tbb::task_arena& arena,
                            ComparisonResult& result) const;
   /// Asks the scan what watching must know of it, when this is a watching comparison.

@@ -65,7 +65,7 @@ struct Daemon::Impl {
         now(std::move(clock)),
         store({.data_dir = config.data_dir, .min_free_bytes = config.min_free_disk_bytes}),
         cache(config.index_cache_bytes),
-        ingest(store,
+        ingest(store, cache,
                {.queue_limit = config.queue_limit, .future_tolerance = config.future_tolerance, .file_limits = {}},
                now),
         runner(store, cache, progress,
@@ -223,7 +223,9 @@ StopOutcome Daemon::Impl::stop() {
   store.commits().close();  // the streams of events end
   folders.clear();
   http.stop();
-  if (!workers.wait_stopped(deadline) || !surveys.wait_stopped(deadline)) return StopOutcome::comparisons_abandoned;
+  const bool compared = workers.wait_stopped(deadline), surveyed = surveys.wait_stopped(deadline);
+  if (!surveyed) store.write([](Transaction& transaction) { put_back_running_runs(transaction); });
+  if (!compared || !surveyed) return StopOutcome::comparisons_abandoned;
   return deliverer.wait_stopped(deadline) ? StopOutcome::clean : StopOutcome::deliveries_abandoned;
 }
 

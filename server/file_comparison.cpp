@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/index_scan.hpp"
 #include "core/prior_index.hpp"
 #include "core/sensor.hpp"
 #include "server/stopwatch.hpp"
@@ -48,26 +49,12 @@ Eigen::Vector3d common_origin_m(const Pose& world_from_sensor) {
   return position_m.norm() > kFar_m ? Eigen::Vector3d(position_m.array().round()) : Eigen::Vector3d::Zero();
 }
 
-struct IndexedFile {
-  PriorIndex index;
-  SensorModel sensor;
-};
-
-/// A sentinel range is only seen once the scan is indexed; scans that have one are indexed again without it.
-IndexedFile index_scan(const PointCloud& points, const CompareParameters& parameters) {
-  PriorIndex index = PriorIndex::build(points, usable_range({}, parameters));
-  SensorModel sensor = estimate_sensor(points, index);
-  const UsableRange usable = usable_range(sensor, parameters);
-  if (usable.no_return_m) index = PriorIndex::build(points, usable);
-  return {std::move(index), sensor};
-}
-
-std::vector<IndexedFile> index_all(const std::vector<FileScan>& scans, const CompareParameters& parameters) {
-  std::vector<std::optional<IndexedFile>> built(scans.size());
+std::vector<ScanIndex> index_all(const std::vector<FileScan>& scans, const CompareParameters& parameters) {
+  std::vector<std::optional<ScanIndex>> built(scans.size());
   tbb::parallel_for(std::size_t{0}, scans.size(),
-                    [&](std::size_t i) { built[i].emplace(index_scan(scans[i].points, parameters)); });
-  std::vector<IndexedFile> indexed;
-  for (std::optional<IndexedFile>& file : built) indexed.push_back(std::move(*file));
+                    [&](std::size_t i) { built[i].emplace(index_scan(scans[i].points, {}, parameters)); });
+  std::vector<ScanIndex> indexed;
+  for (std::optional<ScanIndex>& file : built) indexed.push_back(std::move(*file));
   return indexed;
 }
 
@@ -118,12 +105,12 @@ FileComparison compare_files(const FileComparisonRequest& request) {
   const std::vector<Time> times = capture_times(scans, request.parameters.contemporary_tolerance);
   done.timings.read_ms = watch.lap_ms();
 
-  const std::vector<IndexedFile> indexed = index_all(scans, request.parameters);
+  const std::vector<ScanIndex> indexed = index_all(scans, request.parameters);
   done.timings.index_ms = watch.lap_ms();
 
   std::vector<ScanView> views;
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    views.push_back({scans[i].points, indexed[i].index, scans[i].world_from_sensor, times[i], indexed[i].sensor});
+    views.push_back({scans[i].points, indexed[i].index, scans[i].world_from_sensor, times[i], indexed[i].estimated});
   }
   const ScanView& scan = views.front();
   const AlignedPriors aligned = aligned_priors(scan, std::span(views).subspan(1), request.parameters);

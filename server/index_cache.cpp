@@ -46,6 +46,14 @@ std::shared_ptr<const IndexedScan> IndexCache::get(const IndexKey& key, const Bu
   return scan;
 }
 
+void IndexCache::put(const IndexKey& key, IndexedScan scan) {
+  const std::lock_guard lock(mutex_);
+  if (by_key_.contains(key)) return;
+  entries_.push_front({key, nullptr, 0});
+  by_key_.emplace(key, entries_.begin());
+  keep(entries_.begin(), std::make_shared<const IndexedScan>(std::move(scan)));
+}
+
 void IndexCache::forget(ScanId scan) {
   const std::lock_guard lock(mutex_);
   for (auto entry = entries_.begin(); entry != entries_.end();) {

@@ -53,6 +53,9 @@ class IndexCache {
   /// out here, and the next call builds again.
   std::shared_ptr<const IndexedScan> get(const IndexKey& key, const Build& build);
 
+  /// Takes a scan that is in memory already. Nothing happens when it is here or being built.
+  void put(const IndexKey& key, IndexedScan scan);
+
   /// Forgets a scan that was deleted.
   void forget(ScanId scan);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/index_scan.hpp"
 #include "core/panorama.hpp"
 #include "core/profile.hpp"
 #include "core/sensor.hpp"
@@ -23,6 +24,8 @@ namespace {
 struct ArrivingScan {
   ScanRecord record;
   PointCloud points;
+  UsableRange usable;
+  std::optional<PriorIndex> index;  ///< of the returns in `usable`; none when many scans arrive together
 };
 
 struct SensorAndSite {
@@ -55,16 +58,20 @@ void check_complete(const DecodedScan& scan, Time latest_allowed) {
 /// share theirs.
 constexpr Duration kApartInFile = std::chrono::microseconds(1);
 
-ArrivingScan arriving_scan(DecodedScan decoded, const Sensor& sensor, const std::string& sha256) {
+ArrivingScan arriving_scan(DecodedScan decoded, const Sensor& sensor, const std::string& sha256,
+                           const CompareParameters& parameters) {
   ArrivingScan scan;
   scan.points = std::move(decoded.points);
+  ScanIndex indexed = index_scan(scan.points, sensor.known, parameters);
+  scan.usable = indexed.usable;
+  scan.index = std::move(indexed.index);
   scan.record.site = sensor.site;
   scan.record.sensor = sensor.id;
   scan.record.captured_at = *decoded.captured_at;
   scan.record.points = scan.points.size();
   scan.record.sha256 = sha256;
   scan.record.pose = *decoded.world_from_sensor;
-  scan.record.estimated = estimate_sensor(scan.points);
+  scan.record.estimated = indexed.estimated;
   scan.record.grid = scan.points.grid;
   scan.record.has_intensity = !scan.points.intensity.empty();
   return scan;
@@ -130,8 +137,8 @@ void refuse_when_full(const Snapshot& snapshot, std::uint64_t limit) {
   throw Overloaded(std::to_string(unfinished) + " comparisons are waiting", kRetryAfter);
 }
 
-IngestService::IngestService(Store& store, const IngestConfig& config, std::function<Time()> now)
-    : store_(store), config_(config), now_(std::move(now)) {}
+IngestService::IngestService(Store& store, IndexCache& cache, const IngestConfig& config, std::function<Time()> now)
+    : store_(store), cache_(cache), config_(config), now_(std::move(now)) {}
 
 UploadResult IngestService::ingest(const Upload& upload) {
   const Slot slot(decoders_);
@@ -143,26 +150,26 @@ UploadResult IngestService::ingest(const Upload& upload) {
 
   ScanHints hints = upload.hints;
   hints.fixed_pose = place.sensor.pose;
+  const CompareParameters defaults = default_parameters(place.site.profile, Grouping::consensus);
   std::vector<DecodedScan> decoded = read_scan_file(upload.file, hints, config_.file_limits);
   std::vector<ArrivingScan> scans;
   for (std::size_t i = 0; i < decoded.size(); ++i) {
     check_complete(decoded[i], now + config_.future_tolerance);
     const std::string part = decoded.size() == 1 ? "" : "#" + std::to_string(i + 1);
     *decoded[i].captured_at += kApartInFile * i;
-    scans.push_back(arriving_scan(std::move(decoded[i]), place.sensor, upload.sha256 + part));
+    scans.push_back(arriving_scan(std::move(decoded[i]), place.sensor, upload.sha256 + part, defaults));
     scans.back().record.received_at = now;
+    if (decoded.size() > 1) scans.back().index.reset();
   }
   decoded.clear();
 
   const auto find_in_store = [&](const Snapshot& snapshot) { return find_stored(snapshot, scans); };
   if (auto stored = store_.read(find_in_store)) return {std::move(*stored), true};
 
-  const CompareParameters defaults = default_parameters(place.site.profile, Grouping::consensus);
   UnownedPayloads written(store_.payloads());
   for (ArrivingScan& scan : scans) {
-    const UsableRange usable = usable_range(merged(place.sensor.known, scan.record.estimated), defaults);
     scan.record.payload = written.add(store_.payloads().put_scan(place.site.id, scan.record.captured_at, scan.points,
-                                                                 make_panorama(scan.points, usable)));
+                                                                 make_panorama(scan.points, scan.usable)));
     scan.record.stored_bytes = store_.payloads().stored_bytes(scan.record.payload);
   }
   UploadResult result = store_.write([&](Transaction& transaction) -> UploadResult {
@@ -170,7 +177,12 @@ UploadResult IngestService::ingest(const Upload& upload) {
     refuse_when_full(transaction, config_.queue_limit);
     return {insert_all(transaction, scans, defaults, now), false};
   });
-  if (!result.already_stored) written.keep();
+  if (result.already_stored) return result;
+  written.keep();
+  if (scans.front().index) {
+    ArrivingScan& scan = scans.front();
+    cache_.put({result.scans.front().id, scan.usable}, {std::move(scan.points), std::move(*scan.index)});
+  }
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "api/services.hpp"
 #include "core/time.hpp"
+#include "server/index_cache.hpp"
 #include "storage/formats/scan_file.hpp"
 #include "storage/store.hpp"
 
@@ -27,7 +28,8 @@ class IngestService {
   /// Files that are decoded at once; each is in memory as a whole.
   static constexpr std::ptrdiff_t kDecoders = 4;
 
-  IngestService(Store& store, const IngestConfig& config, std::function<Time()> now);
+  /// What a file of one scan holds is put into `cache`, as its comparisons follow at once.
+  IngestService(Store& store, IndexCache& cache, const IngestConfig& config, std::function<Time()> now);
 
   /// When it returns, every scan of the file is on the disk, and so is the job to compare it with what was before.
   /// @throws NotFound for the sensor; InvalidInput, UnsupportedFormat, TooLarge for the file; Conflict when the sensor
@@ -37,6 +39,7 @@ class IngestService {
 
  private:
   Store& store_;
+  IndexCache& cache_;
   IngestConfig config_;
   std::function<Time()> now_;
   std::counting_semaphore<kDecoders> decoders_{kDecoders};

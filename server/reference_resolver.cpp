@@ -119,6 +119,18 @@ std::vector<BaselinePatch> resolve_patches(const Snapshot& snapshot, const ScanR
   return patches;
 }
 
+std::set<ScanId> learned_among(const Snapshot& snapshot, SiteId site, const std::vector<ScanRecord>& scans) {
+  std::set<VantageId> vantages;
+  for (const ScanRecord& scan : scans) vantages.insert(scan.vantage);
+  std::set<ScanId> learned;
+  for (const VantageId vantage : vantages) {
+    for (const BaselineEntry& entry : baseline_of_vantage(snapshot, site, vantage)) {
+      if (entry.origin == BaselineOrigin::learned) learned.insert(entry.scan);
+    }
+  }
+  return learned;
+}
+
 bool is_explicit(const Reference& reference) { return std::holds_alternative<ExplicitReference>(reference); }
 
 }  // namespace raywatch

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <set>
 #include <vector>
 
 #include "core/time.hpp"
@@ -35,6 +36,9 @@ struct BaselinePatch {
 /// The patches of a baseline whose region lies within a distance of a scan, in the order in which they came.
 std::vector<BaselinePatch> resolve_patches(const Snapshot& snapshot, const ScanRecord& scan, const Site& site,
                                            double radius_m);
+
+/// Those of `scans` that are in the baseline because they were among the first of their vantage.
+std::set<ScanId> learned_among(const Snapshot& snapshot, SiteId site, const std::vector<ScanRecord>& scans);
 
 /// True when the reference names its scans, so that all of them are wanted.
 bool is_explicit(const Reference& reference);

@@ -50,8 +50,8 @@ std::vector<std::string> registration_warnings(const ScanRecord& scan) {
   return {};
 }
 
-std::vector<ScanRecord> ScanRegistrar::anchors_of(const ScanRecord& scan, const Site& site,
-                                                  const LoadedScan& loaded) const {
+std::vector<ScanRecord> ScanRegistrar::anchors_of(const ScanRecord& scan, const Site& site, const LoadedScan& loaded,
+                                                  tbb::task_arena& arena) const {
   const double radius_m = 2.0 * reach_m(*loader_.panorama(scan));
   const std::vector<ScanRecord> offered = store_.read([&](const Snapshot& snapshot) {
     std::vector<ScanRecord> anchors;
@@ -72,8 +72,8 @@ std::vector<ScanRecord> ScanRegistrar::anchors_of(const ScanRecord& scan, const 
   const ChoiceParameters choice{.max_priors = config_.max_anchors};
   const std::vector<Eigen::Vector3d> sample_m = sample_world_points(
       loaded.indexed->points, loaded.world_from_sensor, loaded.indexed->index.usable(), choice.sample_points);
-  const std::vector<CandidateAssessment> assessments =
-      choose_priors(sample_m, loaded.world_from_sensor, scan.captured_at, candidates, choice);
+  const std::vector<CandidateAssessment> assessments = arena.execute(
+      [&] { return choose_priors(sample_m, loaded.world_from_sensor, scan.captured_at, candidates, choice); });
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < offered.size(); ++i) {
     if (assessments[i].chosen) chosen.push_back(i);
@@ -87,7 +87,7 @@ std::vector<ScanRecord> ScanRegistrar::anchors_of(const ScanRecord& scan, const 
 ScanRegistration ScanRegistrar::operator()(const ScanRecord& scan, const Site& site,
                                            const CompareParameters& parameters, const LoadedScan& loaded,
                                            tbb::task_arena& arena) const {
-  const std::vector<ScanRecord> anchors = anchors_of(scan, site, loaded);
+  const std::vector<ScanRecord> anchors = anchors_of(scan, site, loaded, arena);
   if (anchors.empty()) return {.registration = {.uncertainty = PoseUncertainty{}}, .warnings = {}};
   std::vector<LoadedScan> references;
   for (const ScanRecord& anchor : anchors) references.push_back(loader_.load(anchor, site, parameters, arena));

@@ -40,7 +40,8 @@ class ScanRegistrar {
                               const LoadedScan& loaded, tbb::task_arena& arena) const;
 
  private:
-  std::vector<ScanRecord> anchors_of(const ScanRecord& scan, const Site& site, const LoadedScan& loaded) const;
+  std::vector<ScanRecord> anchors_of(const ScanRecord& scan, const Site& site, const LoadedScan& loaded,
+                                     tbb::task_arena& arena) const;
   ScanRegistration judged(const ScanRecord& scan, const Site& site, const Alignment& found, bool is_fixed) const;
 
   Store& store_;

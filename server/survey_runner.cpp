@@ -22,6 +22,7 @@ namespace raywatch {
 /// What a run is about, and what came of it so far.
 struct SurveyRunner::Subject {
   RunRecord run;
+  std::stop_token stop;
   Site site;
   std::optional<ScheduleRecord> schedule;
   std::vector<ScanRecord> scans;         ///< of the epoch
@@ -35,11 +36,11 @@ struct SurveyRunner::Subject {
 SurveyRunner::SurveyRunner(Store& store, IndexCache& cache, std::string program_version, std::function<Time()> now)
     : store_(store), loader_(store, cache), program_version_(std::move(program_version)), now_(std::move(now)) {}
 
-bool SurveyRunner::run_next(tbb::task_arena& arena) {
+bool SurveyRunner::run_next(tbb::task_arena& arena, const std::stop_token& stop) {
   const std::optional<RunRecord> taken = take_run();
   if (!taken) return false;
   try {
-    run(*taken, arena);
+    run(*taken, arena, stop);
   } catch (const CorruptData&) {
     throw;
   } catch (const StorageError&) {  // a full disk, an I/O error: it may work later
@@ -63,9 +64,10 @@ std::optional<RunRecord> SurveyRunner::take_run() {
   return store_.write([&](Transaction& transaction) { return start_run(transaction, *ready, now_()); });
 }
 
-void SurveyRunner::run(const RunRecord& run, tbb::task_arena& arena) {
+void SurveyRunner::run(const RunRecord& run, tbb::task_arena& arena, const std::stop_token& stop) {
   Subject subject;
   subject.run = run;
+  subject.stop = stop;
   try {
     read_subject(subject);
     survey(subject, arena);
@@ -75,7 +77,17 @@ void SurveyRunner::run(const RunRecord& run, tbb::task_arena& arena) {
     end_without_survey(subject, RunState::failed, error.what());
   } catch (const NotFound& error) {
     end_without_survey(subject, RunState::failed, error.what());
+  } catch (const Conflict& error) {
+    if (store_.read([&](const Snapshot& snapshot) { return is_running(snapshot, run.id); })) throw;
+    spdlog::info("survey run {} was cancelled or put back while it ended: {}", run.id.value, error.what());
   }
+  // One that has ended stays as it is.
+  if (stop.stop_requested()) store_.write([&](Transaction& transaction) { requeue_run(transaction, run.id); });
+}
+
+bool SurveyRunner::is_wanted(const Subject& subject) const {
+  if (subject.stop.stop_requested()) return false;
+  return store_.read([&](const Snapshot& snapshot) { return is_running(snapshot, subject.run.id); });
 }
 
 /// What was read before something is missing stays, so that its end can be told.
@@ -118,15 +130,18 @@ void SurveyRunner::survey(Subject& subject, tbb::task_arena& arena) {
   }
   note(subject,
        "compared with epoch " + std::to_string(subject.reference->id.value) + ", \"" + subject.reference->name + "\"");
-  const LoadedEpoch before = load(subject, subject.reference_scans, arena);
-  LoadedEpoch after = load(subject, subject.scans, arena);
+  const std::optional<LoadedEpoch> before = load(subject, subject.reference_scans, arena);
+  if (!before) return;
+  std::optional<LoadedEpoch> after = load(subject, subject.scans, arena);
+  if (!after) return;
   const CompareParameters parameters = default_parameters(subject.site.profile, Grouping::consensus);
   const RegistrationTolerance& tolerance = subject.run.definition.tolerance;
-  const auto refused = register_epoch(after, before, {subject.control, parameters, tolerance}, arena);
+  const auto refused = register_epoch(*after, *before, {subject.control, parameters, tolerance}, arena);
   if (refused) return end_without_survey(subject, RunState::refused, *refused);
-  note_registration(subject, after);
-  const SurveyInput input{.before = {before.epoch, before.about},
-                          .after = {after.epoch, after.about},
+  note_registration(subject, *after);
+  if (!is_wanted(subject)) return;
+  const SurveyInput input{.before = {before->epoch, before->about},
+                          .after = {after->epoch, after->about},
                           .zones = subject.zones,
                           .definition = subject.run.definition,
                           .parameters = parameters,
@@ -136,11 +151,14 @@ void SurveyRunner::survey(Subject& subject, tbb::task_arena& arena) {
   commit(subject, result);
 }
 
-LoadedEpoch SurveyRunner::load(const Subject& subject, const std::vector<ScanRecord>& scans,
-                               tbb::task_arena& arena) const {
+std::optional<LoadedEpoch> SurveyRunner::load(const Subject& subject, const std::vector<ScanRecord>& scans,
+                                              tbb::task_arena& arena) const {
   const CompareParameters parameters = default_parameters(subject.site.profile, Grouping::consensus);
   LoadedEpoch loaded;
-  for (const ScanRecord& scan : scans) loaded.scans.push_back(loader_.load(scan, subject.site, parameters, arena));
+  for (const ScanRecord& scan : scans) {
+    if (!is_wanted(subject)) return std::nullopt;
+    loaded.scans.push_back(loader_.load(scan, subject.site, parameters, arena));
+  }
   for (std::size_t k = 0; k < scans.size(); ++k) {
     const ScanRecord& scan = scans[k];
     loaded.epoch.add(loaded.scans[k].view(), static_cast<std::uint32_t>(scan.vantage.value));

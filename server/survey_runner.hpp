@@ -3,6 +3,8 @@
 #include <tbb/task_arena.h>
 
 #include <functional>
+#include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -26,17 +28,22 @@ class SurveyRunner {
 
   /// Carries out the first queued run that can be; false when there is none. Runs of one schedule keep their order; one
   /// whose scans are still compared waits. What stops a run by passing trouble (a full disk) comes out, and the run is
-  /// put back. Computes in `arena`; must not be called from inside it. @throws StorageError.
-  bool run_next(tbb::task_arena& arena);
+  /// put back. A run that is cancelled ends at its next step, and so does one that is stopped, which is put back.
+  /// Computes in `arena`; must not be called from inside it. @throws StorageError.
+  bool run_next(tbb::task_arena& arena, const std::stop_token& stop = {});
 
  private:
   struct Subject;
 
   std::optional<RunRecord> take_run();
-  void run(const RunRecord& run, tbb::task_arena& arena);
+  void run(const RunRecord& run, tbb::task_arena& arena, const std::stop_token& stop);
   void read_subject(Subject& subject) const;
   void survey(Subject& subject, tbb::task_arena& arena);
-  LoadedEpoch load(const Subject& subject, const std::vector<ScanRecord>& scans, tbb::task_arena& arena) const;
+  /// Asked between the steps of a run.
+  bool is_wanted(const Subject& subject) const;
+  /// Nothing: the run is not wanted any more.
+  std::optional<LoadedEpoch> load(const Subject& subject, const std::vector<ScanRecord>& scans,
+                                  tbb::task_arena& arena) const;
   /// Ends a run that brought no survey; its epoch is kept when it has scans.
   void end_without_survey(Subject& subject, RunState state, const std::string& why);
   void commit(Subject& subject, const SurveyResult& result);

@@ -23,7 +23,7 @@ bool SurveyThread::wait_stopped(std::chrono::steady_clock::time_point deadline) 
 void SurveyThread::work(const std::stop_token& stop) {
   tbb::task_arena arena(static_cast<int>(threads_));
   while (!stop.stop_requested()) {
-    if (turn(arena)) continue;
+    if (turn(arena, stop)) continue;
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, stop, std::chrono::seconds(1), [] { return false; });
   }
@@ -33,10 +33,10 @@ void SurveyThread::work(const std::stop_token& stop) {
 }
 
 /// Whether there may be more to do at once.
-bool SurveyThread::turn(tbb::task_arena& arena) {
+bool SurveyThread::turn(tbb::task_arena& arena, const std::stop_token& stop) {
   try {
     clock_.look(now_());
-    const bool did = runner_.run_next(arena);
+    const bool did = runner_.run_next(arena, stop);
     trouble_.clear();
     return did;
   } catch (const std::exception& error) {

@@ -18,14 +18,14 @@ class SurveyThread {
   /// @param threads of one survey
   SurveyThread(ScheduleClock& clock, SurveyRunner& runner, unsigned threads, std::function<Time()> now);
 
-  /// No new run is begun from now on.
+  /// No new run is begun from now on; the one that is under way is put back after its present step.
   void request_stop();
   /// After `request_stop`: true when it ended before the deadline.
   bool wait_stopped(std::chrono::steady_clock::time_point deadline);
 
  private:
   void work(const std::stop_token& stop);
-  bool turn(tbb::task_arena& arena);
+  bool turn(tbb::task_arena& arena, const std::stop_token& stop);
 
   ScheduleClock& clock_;
   SurveyRunner& runner_;

@@ -74,10 +74,9 @@ std::optional<Job> Workers::take_job() {
     const auto after_last = std::ranges::upper_bound(sites, last_taken_);
     std::rotate(sites.begin(), after_last, sites.end());
     for (const SiteId site : sites) {
-      if (busy_.contains(site) || Clock::now() < resting_until_[site]) continue;
+      if (Clock::now() < resting_until_[site]) continue;
       std::optional<Job> job = store_.write([&](Transaction& transaction) { return start_job(transaction, site); });
       if (!job) continue;
-      busy_.insert(site);
       last_taken_ = site;
       return job;
     }
@@ -87,15 +86,9 @@ std::optional<Job> Workers::take_job() {
   return std::nullopt;
 }
 
-void Workers::release(SiteId site) {
-  const std::lock_guard lock(sites_mutex_);
-  busy_.erase(site);
-}
-
 void Workers::run_to_the_end(const Job& job, tbb::task_arena& arena, const std::stop_token& stop) {
   const Outcome outcome = run(job, arena);
   settle(job, outcome, stop);
-  release(job.site);
   signal_.notify();
 }
 

@@ -7,7 +7,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <stop_token>
 #include <thread>
 #include <vector>
@@ -21,7 +20,7 @@
 namespace raywatch {
 
 struct WorkersConfig {
-  unsigned workers = 1;          ///< sites compared at once
+  unsigned workers = 1;          ///< jobs at once
   unsigned compare_threads = 1;  ///< threads of one comparison
 };
 
@@ -30,9 +29,9 @@ struct WorkersStatus {
   std::uint64_t finished = 0, failed = 0;
 };
 
-/// The threads that take jobs from the durable queue: one job a site at a time, in capture order; sites in parallel and
-/// in turn. A job that cannot succeed ends as failed; one that met passing trouble (a full disk) is put back and its
-/// site rests for a while.
+/// The threads that take jobs from the durable queue: those of a site as `start_job` lets them follow one another,
+/// sites in parallel and in turn. A job that cannot succeed ends as failed; one that met passing trouble (a full disk)
+/// is put back and its site rests for a while.
 class Workers {
  public:
   /// A job that was started this often without an end takes the process down with it: it ends as failed.
@@ -54,7 +53,6 @@ class Workers {
 
   void work(const std::stop_token& stop);
   std::optional<Job> take_job();
-  void release(SiteId site);
   void run_to_the_end(const Job& job, tbb::task_arena& arena, const std::stop_token& stop);
   Outcome run(const Job& job, tbb::task_arena& arena);
   void settle(const Job& job, const Outcome& outcome, const std::stop_token& stop);
@@ -66,7 +64,6 @@ class Workers {
   const std::function<Time()> now_;
 
   std::mutex sites_mutex_;
-  std::set<SiteId> busy_;
   std::map<SiteId, std::chrono::steady_clock::time_point> resting_until_;
   SiteId last_taken_;
 

@@ -102,9 +102,10 @@ ChannelRecord replace_channel(Transaction& transaction, const ChannelRecord& cha
   database_of(transaction)
       .run(
           "UPDATE channels SET name = ?, settings = ?, enabled = ?, site = ?, min_severity = ?, events = ?, "
-          "per_minute = ?, revision = revision + 1, actor = ?, edited_at = ? WHERE id = ?",
+          "per_minute = ?, revision = revision + 1, actor = ?, edited_at = ?, "
+          "failing_since = CASE WHEN ? THEN failing_since END WHERE id = ?",
           channel.name, settings_json(channel.settings), channel.enabled, channel.site, to_string(channel.min_severity),
-          texts_json(channel.events), channel.per_minute, channel.by, now, channel.id);
+          texts_json(channel.events), channel.per_minute, channel.by, now, channel.enabled, channel.id);
   hasten_deliveries(transaction, channel.id, now);
   return find_channel(transaction, channel.id).value();
 }

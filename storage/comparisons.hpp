@@ -120,8 +120,10 @@ Page<ComparisonRecord> list_comparisons(const Snapshot& snapshot, const Comparis
 std::vector<ComparisonRecord> comparisons_of(const Snapshot& snapshot, ScanId scan);
 std::vector<ComparisonCandidate> candidates_of(const Snapshot& snapshot, ComparisonId id);
 
-/// Takes the job of `site` that is earliest by the capture time of its scan, then by id, and marks it, its comparison
-/// and its scan as started; nothing if there is none that is not started.
+/// Takes the job of `site` that is earliest by the capture time of its scan, then by id, among those that may run
+/// beside the ones that are started, and marks it, its comparison and its scan as started. The comparisons that are
+/// watched run one after the other, each after the earlier ones of its scan; all others run one after the other beside
+/// them.
 std::optional<Job> start_job(Transaction& transaction, SiteId site);
 /// The sites with jobs that are not started.
 std::vector<SiteId> sites_with_jobs(const Snapshot& snapshot);

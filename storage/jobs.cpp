@@ -1,3 +1,5 @@
+#include <tuple>
+
 #include "storage/columns.hpp"
 #include "storage/comparison_rows.hpp"
 #include "storage/comparisons.hpp"
@@ -75,20 +77,48 @@ void end_without_result(Transaction& transaction, const Job& job, std::string_vi
   set_states(transaction, job, ComparisonState::failed, why);
 }
 
+/// A job that may start, and its place in the order of its site.
+struct Turn {
+  Job job;
+  Time captured_at;
+  auto place() const { return std::tie(captured_at, job.id); }
+};
+
+/// The first of the jobs that follow one another: those that are watched, or all others. Nothing while another one of
+/// them runs, nor before the earlier jobs of its scan have ended if it is watched: one of them finds the scan's pose.
+std::optional<Turn> next_turn(Database& database, SiteId site, Watching watching) {
+  Statement running(database,
+                    "SELECT 1 FROM jobs INDEXED BY jobs_by_started JOIN comparisons ON comparisons.id = comparison "
+                    "WHERE started = 1 AND jobs.site = ? AND watching = ?");
+  const bool is_watched = watching == Watching::yes;
+  if (running.bind(site, is_watched).next()) return std::nullopt;
+  Statement row(database,
+                "SELECT jobs.id, comparison, jobs.scan, jobs.site, attempts, jobs.captured_at, EXISTS(SELECT 1 FROM "
+                "jobs AS earlier INDEXED BY jobs_by_turn WHERE "
+                "earlier.site = jobs.site AND earlier.started IN (0, 1) AND earlier.captured_at = jobs.captured_at AND "
+                "earlier.scan = jobs.scan AND earlier.id < jobs.id) "
+                "FROM jobs INDEXED BY jobs_by_turn JOIN comparisons ON comparisons.id = comparison "
+                "WHERE jobs.site = ? AND started = 0 AND watching = ? ORDER BY jobs.captured_at, jobs.id LIMIT 1");
+  if (!row.bind(site, is_watched).next()) return std::nullopt;
+  Turn turn{.job = read_job(row), .captured_at = {}};
+  turn.captured_at = row.take<Time>();
+  const bool has_earlier = row.take<bool>();
+  if (is_watched && has_earlier) return std::nullopt;
+  return turn;
+}
+
 }  // namespace
 
 std::optional<Job> start_job(Transaction& transaction, SiteId site) {
   Database& database = database_of(transaction);
-  std::optional<Job> job;
-  {
-    Statement row(database,
-                  kSelect + "INDEXED BY jobs_by_turn WHERE site = ? AND started = 0 ORDER BY captured_at, id LIMIT 1");
-    if (row.bind(site).next()) job = read_job(row);
-  }
-  if (!job) return std::nullopt;
-  ++job->attempts;
-  database.run("UPDATE jobs SET started = 1, attempts = ? WHERE id = ?", job->attempts, job->id);
-  set_states(transaction, *job, ComparisonState::running);
+  std::optional<Turn> first = next_turn(database, site, Watching::no);
+  const std::optional<Turn> watched = next_turn(database, site, Watching::yes);
+  if (watched && (!first || watched->place() < first->place())) first = watched;
+  if (!first) return std::nullopt;
+  Job job = first->job;
+  ++job.attempts;
+  database.run("UPDATE jobs SET started = 1, attempts = ? WHERE id = ?", job.attempts, job.id);
+  set_states(transaction, job, ComparisonState::running);
   return job;
 }
 

@@ -183,6 +183,11 @@ CREATE INDEX changes_by_track ON changes (track, captured_at DESC, comparison, p
 CREATE INDEX alerts_by_opening ON alerts (site, opened_at);
 )sql";
 
+/// A local mine grid, in which results of a site go out.
+constexpr std::string_view kMetadata8 = R"sql(
+ALTER TABLE sites ADD COLUMN mine_grid TEXT;  -- JSON
+)sql";
+
 // A chunk's key is its payload's key times 2^20 plus its place: all chunks of a payload lie together, in order. The
 // bounds stand before the data, so that they are read without it; they are empty where no point has a direction.
 constexpr std::string_view kPayload1 = R"sql(
@@ -217,7 +222,8 @@ CREATE INDEX chunk_bounds ON chunks (id, azimuth_min_rad, azimuth_max_rad, eleva
   range_min_m, range_max_m) WHERE azimuth_min_rad IS NOT NULL;
 )sql";
 
-constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3, kMetadata4, kMetadata5, kMetadata6, kMetadata7};
+constexpr std::array kMetadataSteps{kMetadata1, kMetadata2, kMetadata3, kMetadata4,
+                                    kMetadata5, kMetadata6, kMetadata7, kMetadata8};
 constexpr std::array kPayloadSteps{kPayload1, kPayload2};
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "storage/columns.hpp"
 #include "storage/cursor.hpp"
@@ -12,7 +13,7 @@ namespace {
 
 constexpr std::string_view kList = "sites";
 const std::string kSelect =
-    "SELECT id, name, time_zone, profile, epsg, origin_x_m, origin_y_m, origin_z_m, "
+    "SELECT id, name, time_zone, profile, epsg, mine_grid, origin_x_m, origin_y_m, origin_z_m, "
     "retention_max_age_days, retention_max_bytes, retention_min_free_bytes, created_at FROM sites ";
 
 std::optional<Eigen::Vector3d> take_origin(Statement& row) {
@@ -23,6 +24,41 @@ std::optional<Eigen::Vector3d> take_origin(Statement& row) {
   return Eigen::Vector3d(*x, *y, *z);
 }
 
+using Json = nlohmann::json;
+
+std::optional<std::string> text_of(const std::optional<MineGrid>& grid) {
+  if (!grid) return std::nullopt;
+  const Eigen::Vector3d &site = grid->site_origin_m, &mine = grid->grid_origin_m;
+  return Json{{"site_origin_m", {site.x(), site.y(), site.z()}},
+              {"grid_origin_m", {mine.x(), mine.y(), mine.z()}},
+              {"rotation_rad", grid->rotation_rad},
+              {"scale", grid->scale}}
+      .dump();
+}
+
+std::optional<MineGrid> grid_of(const std::optional<std::string>& text) {
+  if (!text) return std::nullopt;
+  try {
+    const Json json = Json::parse(*text);
+    const auto place = [&](const char* name) {
+      return Eigen::Vector3d(json.at(name).at(0), json.at(name).at(1), json.at(name).at(2));
+    };
+    return MineGrid{.site_origin_m = place("site_origin_m"),
+                    .grid_origin_m = place("grid_origin_m"),
+                    .rotation_rad = json.at("rotation_rad"),
+                    .scale = json.at("scale")};
+  } catch (const Json::exception& error) {
+    throw CorruptData(std::string("the store holds a broken mine grid: ") + error.what());
+  }
+}
+
+void check_coordinates(const Site& site) {
+  if (site.mine_grid) check_grid(*site.mine_grid);
+  if (!site.epsg || !site.mine_grid) return;
+  throw InvalidInput("Results of a site go out in one kind of coordinates.",
+                     {{"mine_grid", "cannot be given beside 'epsg': give null for the one that does not hold"}});
+}
+
 Site read_site(Statement& row) {
   Site site;
   site.id = row.take<SiteId>();
@@ -30,6 +66,7 @@ Site read_site(Statement& row) {
   site.time_zone = row.take<std::string>();
   site.profile = enum_from_text(row.take<std::string>(), {Profile::indoor, Profile::outdoor, Profile::survey});
   site.epsg = row.take<std::optional<int>>();
+  site.mine_grid = grid_of(row.take<std::optional<std::string>>());
   site.origin_m = take_origin(row);
   site.retention.max_age_days = row.take<std::optional<std::uint64_t>>();
   site.retention.max_bytes = row.take<std::optional<std::uint64_t>>();
@@ -80,15 +117,16 @@ void delete_what_was_watched(Database& database, SiteId id) {
 
 Site insert_site(Transaction& transaction, const Site& site, Time now) {
   transaction.impl().require_room_for_records();
+  check_coordinates(site);
   if (find_site(transaction, site.name)) throw Conflict("there is a site named \"" + site.name + "\" already");
   database_of(transaction)
       .run(
-          "INSERT INTO sites (name, time_zone, profile, epsg, origin_x_m, origin_y_m, origin_z_m, "
+          "INSERT INTO sites (name, time_zone, profile, epsg, mine_grid, origin_x_m, origin_y_m, origin_z_m, "
           "retention_max_age_days, retention_max_bytes, retention_min_free_bytes, created_at) "
-          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-          site.name, site.time_zone, to_string(site.profile), site.epsg, coordinate(site.origin_m, 0),
-          coordinate(site.origin_m, 1), coordinate(site.origin_m, 2), site.retention.max_age_days,
-          site.retention.max_bytes, site.retention.min_free_bytes, now);
+          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+          site.name, site.time_zone, to_string(site.profile), site.epsg, text_of(site.mine_grid),
+          coordinate(site.origin_m, 0), coordinate(site.origin_m, 1), coordinate(site.origin_m, 2),
+          site.retention.max_age_days, site.retention.max_bytes, site.retention.min_free_bytes, now);
   return existing(transaction, SiteId{database_of(transaction).last_id()});
 }
 
@@ -114,17 +152,24 @@ Site edit_site(Transaction& transaction, SiteId id, const SiteEdit& edit) {
   }
   if (edit.time_zone) site.time_zone = *edit.time_zone;
   if (edit.profile) site.profile = *edit.profile;
-  if (edit.epsg) site.epsg = edit.epsg;
+  if (edit.epsg) site.epsg = *edit.epsg;
+  if (edit.mine_grid) site.mine_grid = *edit.mine_grid;
   if (edit.origin_m) site.origin_m = edit.origin_m;
   if (edit.retention) site.retention = *edit.retention;
+  check_coordinates(site);
   database_of(transaction)
       .run(
-          "UPDATE sites SET time_zone = ?, profile = ?, epsg = ?, origin_x_m = ?, origin_y_m = ?, origin_z_m = ?, "
+          "UPDATE sites SET time_zone = ?, profile = ?, epsg = ?, mine_grid = ?, origin_x_m = ?, origin_y_m = ?, "
+          "origin_z_m = ?, "
           "retention_max_age_days = ?, retention_max_bytes = ?, retention_min_free_bytes = ? WHERE id = ?",
-          site.time_zone, to_string(site.profile), site.epsg, coordinate(site.origin_m, 0),
+          site.time_zone, to_string(site.profile), site.epsg, text_of(site.mine_grid), coordinate(site.origin_m, 0),
           coordinate(site.origin_m, 1), coordinate(site.origin_m, 2), site.retention.max_age_days,
           site.retention.max_bytes, site.retention.min_free_bytes, id);
   return site;
+}
+
+OutputFrame output_frame(const Site& site) {
+  return {.origin_m = site.origin_m.value_or(Eigen::Vector3d::Zero()), .epsg = site.epsg, .grid = site.mine_grid};
 }
 
 /// Coordinates up to this size keep a tenth of a millimetre in 32-bit floats well enough; larger ones, such as those of

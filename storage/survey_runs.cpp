@@ -15,13 +15,14 @@ namespace {
 constexpr int kMaxAttempts = 5;
 
 constexpr std::string_view kList = "survey_runs";
-constexpr Names<RunState, 7> kStates{{{RunState::queued, "queued"},
+constexpr Names<RunState, 8> kStates{{{RunState::queued, "queued"},
                                       {RunState::running, "running"},
                                       {RunState::done, "done"},
                                       {RunState::failed, "failed"},
                                       {RunState::no_scans, "no_scans"},
                                       {RunState::refused, "refused"},
-                                      {RunState::skipped, "skipped"}}};
+                                      {RunState::skipped, "skipped"},
+                                      {RunState::cancelled, "cancelled"}}};
 const std::string kSelect =
     "SELECT id, site, schedule, due_at, from_at, to_at, definition, state, attempts, why, log, epoch, reference, "
     "survey, created_at, started_at, finished_at FROM survey_runs ";
@@ -113,7 +114,7 @@ bool has_useful_run(const Snapshot& snapshot, ScheduleId schedule, Time due_at) 
   return database_of(snapshot)
       .find<int>(
           "SELECT 1 FROM survey_runs INDEXED BY survey_runs_by_due WHERE schedule = ? AND due_at = ? AND "
-          "state IN ('queued', 'running', 'done', 'refused') LIMIT 1",
+          "state IN ('queued', 'running', 'done', 'refused', 'cancelled') LIMIT 1",
           schedule, due_at)
       .has_value();
 }
@@ -142,6 +143,28 @@ std::uint64_t requeue_running_runs(Transaction& transaction, Time now) {
 void requeue_run(Transaction& transaction, RunId id) {
   database_of(transaction)
       .run("UPDATE survey_runs SET state = 'queued', attempts = attempts - 1 WHERE id = ? AND state = 'running'", id);
+}
+
+void put_back_running_runs(Transaction& transaction) {
+  database_of(transaction)
+      .run(
+          "UPDATE survey_runs INDEXED BY survey_runs_running SET state = 'queued', attempts = attempts - 1 "
+          "WHERE state = 'running'");
+}
+
+bool cancel_run(Transaction& transaction, RunId id, const std::string& why, Time now) {
+  Database& database = database_of(transaction);
+  database.run(
+      "UPDATE survey_runs SET state = 'cancelled', why = ?, finished_at = ? WHERE id = ? AND "
+      "state IN ('queued', 'running')",
+      why, now, id);
+  return database.changed_rows() > 0;
+}
+
+bool is_running(const Snapshot& snapshot, RunId id) {
+  return database_of(snapshot)
+      .find<int>("SELECT 1 FROM survey_runs WHERE id = ? AND state = 'running'", id)
+      .has_value();
 }
 
 bool finish_run(Transaction& transaction, RunId id, const RunEnd& end, Time now) {

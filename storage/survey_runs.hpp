@@ -20,6 +20,7 @@ enum class RunState : std::uint8_t {
   no_scans,  ///< nothing, or not all that was required, was scanned in its window
   refused,   ///< the scans are not registered well enough
   skipped,   ///< it was missed, and not caught up
+  cancelled  ///< by an operator; see `why`
 };
 std::string_view to_string(RunState state);
 /// @throws InvalidInput naming the known ones.
@@ -70,8 +71,14 @@ bool has_useful_run(const Snapshot& snapshot, ScheduleId schedule, Time due_at);
 std::optional<RunRecord> start_run(Transaction& transaction, RunId id, Time now);
 /// Puts runs back that an earlier process began and did not end; those that were begun too often fail.
 std::uint64_t requeue_running_runs(Transaction& transaction, Time now);
-/// Puts a run back without counting the attempt.
+/// Puts a run back without counting the attempt. Nothing happens when it is not running any more.
 void requeue_run(Transaction& transaction, RunId id);
+/// The same of all that are running: the program ends in good order, but cannot wait for them.
+void put_back_running_runs(Transaction& transaction);
+/// Ends a run that waits or is running; whoever carries it out finds that out by `finish_run`. False when it has ended.
+bool cancel_run(Transaction& transaction, RunId id, const std::string& why, Time now);
+/// Whether a run is running: not when it was cancelled, or put back.
+bool is_running(const Snapshot& snapshot, RunId id);
 
 /// How a run ends.
 struct RunEnd {

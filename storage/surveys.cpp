@@ -12,9 +12,9 @@ namespace raywatch {
 namespace {
 
 constexpr std::string_view kList = "surveys", kChangeList = "survey_changes";
-const std::string kSelect =
+const std::string kColumns =
     "SELECT id, site, schedule, run, before_epoch, after_epoch, before_at, after_at, made_at, payload_file, "
-    "payload_key, stored_bytes FROM surveys ";
+    "payload_key, stored_bytes";
 
 SurveyRecord read_survey(Statement& row) {
   SurveyRecord survey;
@@ -73,7 +73,7 @@ SurveyRecord insert_survey(Transaction& transaction, SurveyRecord survey, const 
 }
 
 std::optional<SurveyRecord> find_survey(const Snapshot& snapshot, SurveyId id) {
-  Statement row(database_of(snapshot), kSelect + "WHERE id = ?");
+  Statement row(database_of(snapshot), kColumns + " FROM surveys WHERE id = ?");
   if (!row.bind(id).next()) return std::nullopt;
   return read_survey(row);
 }
@@ -98,21 +98,29 @@ Page<SurveyChange> survey_changes(const Snapshot& snapshot, SurveyId id, const P
   return result;
 }
 
-Page<SurveyRecord> list_surveys(const Snapshot& snapshot, const SurveyFilter& filter, const PageRequest& page) {
+Page<ListedSurvey> list_surveys(const Snapshot& snapshot, const SurveyFilter& filter, const PageRequest& page) {
   const auto [before] = key_before<1>(page, kList, {std::numeric_limits<std::int64_t>::max()});
   const std::string which = filter.schedule ? "INDEXED BY surveys_by_schedule WHERE schedule = ? AND "
                             : filter.site   ? "INDEXED BY surveys_by_site WHERE site = ? AND "
                                             : "WHERE ";
-  Statement rows(database_of(snapshot), kSelect + which + "id < ? ORDER BY id DESC LIMIT ?");
+  const std::string site_name = ", (SELECT name FROM sites WHERE sites.id = surveys.site)";
+  Statement rows(database_of(snapshot),
+                 kColumns + site_name + ", result FROM surveys " + which + "id < ? ORDER BY id DESC LIMIT ?");
   if (filter.schedule) {
     rows.bind(*filter.schedule);
   } else if (filter.site) {
     rows.bind(*filter.site);
   }
   rows.bind(before, rows_to_read(page));
-  std::vector<SurveyRecord> surveys;
-  while (rows.next()) surveys.push_back(read_survey(rows));
-  return make_page(std::move(surveys), page, kList, [](const SurveyRecord& s) { return std::array{s.id.value}; });
+  std::vector<ListedSurvey> surveys;
+  while (rows.next()) {
+    ListedSurvey& survey = surveys.emplace_back();
+    survey.record = read_survey(rows);
+    survey.site = rows.take<std::string>();
+    survey.result = result_from_json(rows.take<std::string>());
+  }
+  return make_page(std::move(surveys), page, kList,
+                   [](const ListedSurvey& survey) { return std::array{survey.record.id.value}; });
 }
 
 }  // namespace raywatch

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/survey.hpp"
@@ -41,7 +42,13 @@ struct SurveyFilter {
   std::optional<SiteId> site;
   std::optional<ScheduleId> schedule;
 };
-/// Newest first. With a schedule the site is not asked about.
-Page<SurveyRecord> list_surveys(const Snapshot& snapshot, const SurveyFilter& filter, const PageRequest& page);
+/// A survey as it stands in a list: its result is without models, points and changes.
+struct ListedSurvey {
+  SurveyRecord record;
+  std::string site;  ///< its name
+  SurveyResult result;
+};
+/// Newest first, in one query. With a schedule the site is not asked about.
+Page<ListedSurvey> list_surveys(const Snapshot& snapshot, const SurveyFilter& filter, const PageRequest& page);
 
 }  // namespace raywatch

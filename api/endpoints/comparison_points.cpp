@@ -126,7 +126,7 @@ PointSet gather(Call& call, const StoredComparison& stored, const PointRequest& 
   }
   if (request.frame == Frame::world) set.origin_m = origin_of(stored.site);
   if (request.frame == Frame::sensor) set.viewpoint = stored.scan.pose;
-  return thinned(std::move(set), request);
+  return set;
 }
 
 std::string tag_of(const StoredComparison& stored, const PointRequest& request, const Classes& wanted) {
@@ -149,8 +149,10 @@ HttpAnswer get_comparison_points(Call& call) {
   const std::string tag = tag_of(stored, request, wanted);
   if (is_cached(call.header("If-None-Match"), tag)) return not_modified(tag);
 
-  HttpAnswer answer = point_answer(std::make_shared<const PointSet>(gather(call, stored, request, wanted)),
-                                   request.format, "comparison-" + std::to_string(stored.record.id.value));
+  HttpAnswer answer =
+      point_answer(requested_points(*call.services.ordered_points, tag_of(stored, whole(request), wanted), request,
+                                    [&] { return gather(call, stored, request, wanted); }),
+                   request.format, "comparison-" + std::to_string(stored.record.id.value));
   answer.set_header("ETag", tag);
   return answer;
 }

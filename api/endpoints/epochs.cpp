@@ -2,8 +2,8 @@
 
 #include "api/call.hpp"
 #include "api/conditional.hpp"
-#include "api/endpoints/survey_endpoints.hpp"
 #include "api/endpoints/list_of_site.hpp"
+#include "api/endpoints/survey_endpoints.hpp"
 #include "api/json_body.hpp"
 #include "api/json_object.hpp"
 #include "api/lookup.hpp"
@@ -17,21 +17,17 @@ namespace {
 struct GivenEpoch {
   std::string site;
   std::optional<std::string> name;
-  Time from, to;
-  std::vector<std::string> sensors;
+  GivenWindow window;
 };
 
 GivenEpoch parse_epoch(const nlohmann::json& json) {
   FieldErrors errors;
   JsonObject body(json, "", errors);
   GivenEpoch given;
-  for (const char* member : {"site", "from", "to"}) body.require(member);
+  body.require("site");
   given.site = body.text("site").value_or("");
   given.name = body.parsed("name", checked_name);
-  given.from = body.time("from").value_or(Time::min());
-  given.to = body.time("to").value_or(Time::max());
-  if (given.from >= given.to) body.fail("to", "must be later than 'from'");
-  given.sensors = parse_names(body, "sensors");
+  given.window = parse_window(body);
   body.finish();
   errors.throw_if_any();
   return given;
@@ -44,17 +40,8 @@ HttpAnswer create_epoch(Call& call) {
   const GivenEpoch given = parse_epoch(json_body(call));
   const Time now = call.services.now();
   const Json json = call.services.store.write([&](Transaction& transaction) {
-    EpochRecord epoch;
-    epoch.site = site_named(transaction, given.site).id;
-    epoch.name = given.name.value_or("from " + format_rfc3339(given.from));
-    epoch.from = given.from;
-    epoch.to = given.to;
-    const EpochWindow window{epoch.site, given.from, given.to,
-                             sensors_named(transaction, given.sensors, epoch.site, "sensors")};
-    for (const ScanRecord& scan : scans_of_window(transaction, window)) epoch.scans.push_back(scan.id);
-    if (epoch.scans.empty()) {
-      throw InvalidInput("The epoch would be empty.", {{"from", "there are no scans between 'from' and 'to'"}});
-    }
+    EpochRecord epoch = epoch_of_window(transaction, site_named(transaction, given.site).id, given.window, "");
+    if (given.name) epoch.name = *given.name;
     return render(transaction, insert_epoch(transaction, epoch, now));
   });
   HttpAnswer answer = with_body_tag(json_answer(json, 201), std::nullopt);

@@ -41,7 +41,7 @@ PointSet as_asked(const StoredScan& scan, PointCloud points, const PointRequest&
     set.viewpoint = scan.record.pose;
   }
   set.intensity = std::move(points.intensity);
-  return thinned(std::move(set), request);
+  return set;
 }
 
 /// The file that comes back bit-exact when it is uploaded again.
@@ -64,12 +64,13 @@ HttpAnswer get_scan_points(Call& call) {
   const std::string tag = tag_of(scan, request);
   if (is_cached(call.header("If-None-Match"), tag)) return not_modified(tag);
 
-  PointCloud points = call.services.store.payloads().scan_points(scan.record.payload);
+  const auto load = [&] { return call.services.store.payloads().scan_points(scan.record.payload); };
   const std::string name = "scan-" + std::to_string(scan.record.id.value);
   const bool raw =
       request.frame == Frame::sensor && request.format == PointFormat::pcd && !request.voxel_m && !request.budget;
-  HttpAnswer answer = raw ? raw_pcd_answer(std::move(points), scan.record.pose, name)
-                          : point_answer(std::make_shared<const PointSet>(as_asked(scan, std::move(points), request)),
+  HttpAnswer answer = raw ? raw_pcd_answer(load(), scan.record.pose, name)
+                          : point_answer(requested_points(*call.services.ordered_points, tag_of(scan, whole(request)),
+                                                          request, [&] { return as_asked(scan, load(), request); }),
                                          request.format, name);
   answer.set_header("ETag", tag);
   return answer;

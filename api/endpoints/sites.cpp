@@ -9,6 +9,7 @@
 #include "api/lookup.hpp"
 #include "api/name_rules.hpp"
 #include "api/render.hpp"
+#include "api/units.hpp"
 #include "storage/rules.hpp"
 #include "storage/site_crs.hpp"
 
@@ -24,6 +25,20 @@ int checked_epsg(std::int64_t code) {
   return epsg;
 }
 
+/// The members of `MineGrid`; a scale that is wrong is named here, before the store refuses it.
+std::optional<MineGrid> parse_grid(JsonObject& body) {
+  std::optional<JsonObject> given = body.object("mine_grid");
+  if (!given) return std::nullopt;
+  MineGrid grid;
+  for (const char* member : {"site_origin_m", "grid_origin_m"}) given->require(member);
+  grid.site_origin_m = given->vector3("site_origin_m").value_or(grid.site_origin_m);
+  grid.grid_origin_m = given->vector3("grid_origin_m").value_or(grid.grid_origin_m);
+  grid.rotation_rad = radians_of_deg(given->real("rotation_deg", {.min = -360.0, .max = 360.0}).value_or(0.0));
+  grid.scale = given->real("scale", {.min = 0.9, .max = 1.1}).value_or(grid.scale);
+  given->finish();
+  return grid;
+}
+
 /// What is not given is left to the one who asks.
 struct GivenEdit {
   SiteEdit edit;
@@ -36,6 +51,7 @@ GivenEdit parse_edit(JsonObject& body) {
   edit.time_zone = body.parsed("time_zone", checked_time_zone);
   edit.profile = body.parsed("profile", parse_profile);
   if (const auto epsg = body.integer("epsg", kEpsgCodes)) edit.epsg = checked_epsg(*epsg);
+  if (auto grid = parse_grid(body)) edit.mine_grid = grid;
   edit.origin_m = body.vector3("origin_m");
   if (auto retention = body.object("retention")) {
     given.retention = parse_limits(*retention);
@@ -56,7 +72,8 @@ Site parse_site(const nlohmann::json& json) {
   errors.throw_if_any();
   site.time_zone = given.time_zone.value_or(site.time_zone);
   site.profile = given.profile.value_or(site.profile);
-  site.epsg = given.epsg;
+  site.epsg = given.epsg.value_or(std::nullopt);
+  site.mine_grid = given.mine_grid.value_or(std::nullopt);
   site.origin_m = given.origin_m;
   site.retention = whole.retention.applied_to({});
   return site;
@@ -66,7 +83,9 @@ GivenEdit parse_site_edit(const nlohmann::json& json) {
   FieldErrors errors;
   JsonObject body(json, "", errors);
   GivenEdit edit = parse_edit(body);
-  for (const char* name : {"time_zone", "profile", "epsg", "origin_m", "retention"}) body.refuse_null(name);
+  for (const char* name : {"time_zone", "profile", "origin_m", "retention"}) body.refuse_null(name);
+  if (body.is_null("epsg")) edit.edit.epsg.emplace();
+  if (body.is_null("mine_grid")) edit.edit.mine_grid.emplace();
   body.finish();
   errors.throw_if_any();
   return edit;

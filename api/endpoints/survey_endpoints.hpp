@@ -26,6 +26,7 @@ HttpAnswer delete_epoch(Call& call);
 HttpAnswer create_survey(Call& call);
 HttpAnswer list_survey_runs(Call& call);
 HttpAnswer get_survey_run(Call& call);
+HttpAnswer cancel_survey_run(Call& call);
 HttpAnswer get_survey_series(Call& call);
 HttpAnswer list_surveys(Call& call);
 HttpAnswer get_survey(Call& call);

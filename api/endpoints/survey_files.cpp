@@ -37,7 +37,7 @@ struct StoredSurvey {
             .before_at = record.before_at,
             .after_at = record.after_at,
             .made_at = record.made_at,
-            .frame = {.origin_m = origin_of(site), .epsg = site.epsg},
+            .frame = output_frame(site),
             .crs_name = site.epsg ? describe_crs(*site.epsg).name : "",
             .series = series};
   }

@@ -33,7 +33,22 @@ Json plane(const Cells& cells, Get get) {
   return values;
 }
 
-HttpAnswer render_json(const SurveyResult& survey, const Eigen::Vector3d& origin_m) {
+/// How cells lead to the coordinates in which files go out.
+Json render_output(const GridLayout& layout, const OutputFrame& frame) {
+  const CellTransform cells = cell_transform(layout, frame);
+  const auto pair = [](const Eigen::Vector2d& value) { return Json{value.x(), value.y()}; };
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  return {{"coordinates", frame.grid   ? "mine_grid"
+                          : frame.epsg ? "epsg"
+                                       : "site"},
+          {"corner_m", pair(cells.corner_m)},
+          {"a_column_m", pair(cells.a_column_m)},
+          {"a_row_m", pair(cells.a_row_m)},
+          {"above_site_m", frame.output_from_local(zero).z() - frame.site_from_local(zero).z()}};
+}
+
+HttpAnswer render_json(const SurveyResult& survey, const OutputFrame& frame) {
+  const Eigen::Vector3d& origin_m = frame.origin_m;
   const GridLayout& layout = survey.before_model.layout;
   if (layout.cell_count() > kMostJsonCells) {
     throw InvalidInput("The grid has too many cells for JSON.", {{"format", "must be bin for more than 250000 cells"}});
@@ -43,6 +58,7 @@ HttpAnswer render_json(const SurveyResult& survey, const Eigen::Vector3d& origin
                       {"cell_m", layout.cell_m},
                       {"columns", layout.columns},
                       {"rows", layout.rows},
+                      {"output", render_output(layout, frame)},
                       {"rise_m", plane(survey.difference, [](const DifferenceCell& c) { return c.rise_m; })},
                       {"lod95_m", plane(survey.difference,
                                         [](const DifferenceCell& c) { return c.seen() ? c.lod95_m : std::nan(""); })},
@@ -96,15 +112,15 @@ HttpAnswer get_survey_grid(Call& call) {
   const auto format = call.query.parsed("format", parse_format).value_or(GridFormat::json);
   call.query.finish();
   const auto id = id_in_path<SurveyId>(call.path[0]);
-  Eigen::Vector3d origin_m;
+  OutputFrame frame;
   const SurveyRecord record = call.services.store.read([&](const Snapshot& snapshot) {
     SurveyRecord found = survey_with(snapshot, id);
-    origin_m = origin_of(site_with(snapshot, found.site));
+    frame = output_frame(site_with(snapshot, found.site));
     return found;
   });
   SurveyResult survey;
   read_models(call.services.store.payloads(), record.models, survey);
-  return with_body_tag(format == GridFormat::json ? render_json(survey, origin_m) : render_bin(survey, origin_m),
+  return with_body_tag(format == GridFormat::json ? render_json(survey, frame) : render_bin(survey, frame.origin_m),
                        call.header("If-None-Match"));
 }
 

@@ -1,70 +1,105 @@
 #include "storage/surveys.hpp"
 
+#include <variant>
+
 #include "api/call.hpp"
 #include "api/conditional.hpp"
 #include "api/endpoints/survey_endpoints.hpp"
 #include "api/json_body.hpp"
 #include "api/lookup.hpp"
+#include "api/name_rules.hpp"
 #include "api/parse_survey.hpp"
 #include "api/render.hpp"
 #include "api/render_survey.hpp"
+#include "storage/events.hpp"
 
 namespace raywatch::endpoints {
 namespace {
 
+/// An epoch that there is, or the window of one that is to be made.
+using GivenEpoch = std::variant<EpochId, GivenWindow>;
+
 struct GivenSurvey {
   std::string site;
-  EpochId before, after;
+  GivenEpoch before, after;
   SurveyDefinition definition;
 };
+
+GivenEpoch parse_epoch(JsonObject& body, const char* member) {
+  body.require(member);
+  const nlohmann::json* value = body.any(member);
+  if (value == nullptr || !value->is_object()) return EpochId{body.integer(member, {.min = 1}).value_or(0)};
+  JsonObject window = body.object(member).value();
+  GivenWindow given = parse_window(window);
+  window.finish();
+  return given;
+}
 
 GivenSurvey parse_survey(const nlohmann::json& json) {
   FieldErrors errors;
   JsonObject body(json, "", errors);
   GivenSurvey given;
-  for (const char* member : {"site", "before", "after"}) body.require(member);
+  body.require("site");
   given.site = body.text("site").value_or("");
-  given.before = EpochId{body.integer("before", {.min = 1}).value_or(0)};
-  given.after = EpochId{body.integer("after", {.min = 1}).value_or(0)};
+  given.before = parse_epoch(body, "before");
+  given.after = parse_epoch(body, "after");
   given.definition = parse_definition(body, errors);
   body.finish();
   errors.throw_if_any();
   return given;
 }
 
-/// An epoch that a survey by hand may use.
-EpochRecord usable_epoch(const Snapshot& snapshot, EpochId id, SiteId site, const char* member) {
-  const EpochRecord epoch = epoch_with(snapshot, id);
+/// An epoch that a survey by hand may use; one of a window has no id yet.
+EpochRecord usable_epoch(const Snapshot& snapshot, const GivenEpoch& given, SiteId site, const std::string& member) {
+  if (const auto* window = std::get_if<GivenWindow>(&given)) {
+    return epoch_of_window(snapshot, site, *window, member + ".");
+  }
+  const EpochRecord epoch = epoch_with(snapshot, std::get<EpochId>(given));
   if (epoch.site == site && epoch.state != EpochState::refused) return epoch;
   throw InvalidInput("The epochs cannot be compared.", {{member, "must be an epoch of the site that was not refused"}});
 }
 
-RunRecord run_of(const Snapshot& snapshot, const GivenSurvey& given) {
-  const SiteId site = site_named(snapshot, given.site).id;
-  const EpochRecord before = usable_epoch(snapshot, given.before, site, "before");
-  const EpochRecord after = usable_epoch(snapshot, given.after, site, "after");
+/// The run of a survey; epochs of windows are made for it.
+RunRecord run_of(Transaction& transaction, const GivenSurvey& given, Time now) {
+  const SiteId site = site_named(transaction, given.site).id;
+  const EpochRecord before = usable_epoch(transaction, given.before, site, "before");
+  const EpochRecord after = usable_epoch(transaction, given.after, site, "after");
   if (before.to > after.from) {
     throw InvalidInput("The epochs cannot be compared.",
                        {{"before", "must end before the epoch 'after' begins, at " + format_rfc3339(after.from)}});
   }
-  check_zones(snapshot, given.definition, site);
+  check_zones(transaction, given.definition, site);
+  const auto stored = [&](const EpochRecord& epoch) {
+    return epoch.id.value > 0 ? epoch.id : insert_epoch(transaction, epoch, now).id;
+  };
   RunRecord run;
   run.site = site;
   run.due_at = after.to;
   run.from = after.from;
   run.to = after.to;
   run.definition = given.definition;
-  run.epoch = after.id;
-  run.reference = before.id;
+  run.reference = stored(before);
+  run.epoch = stored(after);
   return run;
 }
 
+/// @returns why the run ends.
+std::string parse_cancellation(const nlohmann::json& json) {
+  FieldErrors errors;
+  JsonObject body(json, "", errors);
+  body.require("by");
+  const std::string by = body.parsed("by", checked_actor).value_or("");
+  const std::string note = body.parsed("note", checked_note).value_or("");
+  body.finish();
+  errors.throw_if_any();
+  return "cancelled by " + by + (note.empty() ? "" : ": " + note);
+}
+
 /// The survey that a path names, and what it found.
-struct Found {
-  SurveyRecord record;
-  SurveyResult result;
-};
-Found found(const Snapshot& snapshot, SurveyId id) { return {survey_with(snapshot, id), survey_result(snapshot, id)}; }
+ListedSurvey found(const Snapshot& snapshot, SurveyId id) {
+  const SurveyRecord record = survey_with(snapshot, id);
+  return {record, site_with(snapshot, record.site).name, survey_result(snapshot, id)};
+}
 
 }  // namespace
 
@@ -73,7 +108,7 @@ HttpAnswer create_survey(Call& call) {
   const GivenSurvey given = parse_survey(json_body(call));
   const Time now = call.services.now();
   const Json json = call.services.store.write([&](Transaction& transaction) {
-    return render(transaction, insert_run(transaction, run_of(transaction, given), now));
+    return render(transaction, insert_run(transaction, run_of(transaction, given, now), now));
   });
   HttpAnswer answer = json_answer(json, 202);
   answer.set_header("Location", "/api/v1/surveys/runs/" + json["id"].dump());
@@ -98,6 +133,25 @@ HttpAnswer get_survey_run(Call& call) {
       call.services.store.read([&](const Snapshot& snapshot) { return render(snapshot, run_with(snapshot, id)); }));
 }
 
+HttpAnswer cancel_survey_run(Call& call) {
+  call.query.finish();
+  const auto id = id_in_path<RunId>(call.path[0]);
+  const std::string why = parse_cancellation(json_body(call));
+  const Time now = call.services.now();
+  return json_answer(call.services.store.write([&](Transaction& transaction) {
+    const RunRecord run = run_with(transaction, id);
+    if (!cancel_run(transaction, id, why, now)) {
+      throw Conflict("Run " + std::to_string(id.value) + " has ended already: it is " +
+                     std::string(to_string(run.state)) + ".");
+    }
+    insert_event(transaction, {.at = now,
+                               .type = "survey.cancelled",
+                               .site = run.site,
+                               .text = "Run " + std::to_string(id.value) + " of a survey: " + why});
+    return render(transaction, run_with(transaction, id));
+  }));
+}
+
 HttpAnswer list_surveys(Call& call) {
   const auto site_name = call.query.text("site");
   const auto schedule = call.query.integer("schedule", {.min = 1});
@@ -107,9 +161,8 @@ HttpAnswer list_surveys(Call& call) {
     SurveyFilter filter;
     if (site_name) filter.site = site_named(snapshot, *site_name).id;
     if (schedule) filter.schedule = ScheduleId{*schedule};
-    return render_page(raywatch::list_surveys(snapshot, filter, page), [&](const SurveyRecord& survey) {
-      return render(snapshot, survey, survey_result(snapshot, survey.id));
-    });
+    return render_page(raywatch::list_surveys(snapshot, filter, page),
+                       [](const ListedSurvey& survey) { return render(survey); });
   }));
 }
 
@@ -117,8 +170,8 @@ HttpAnswer get_survey(Call& call) {
   call.query.finish();
   const auto id = id_in_path<SurveyId>(call.path[0]);
   const Json json = call.services.store.read([&](const Snapshot& snapshot) {
-    const Found survey = found(snapshot, id);
-    Json rendered = render(snapshot, survey.record, survey.result);
+    const ListedSurvey survey = found(snapshot, id);
+    Json rendered = render(survey);
     rendered["ground"] = render_ground(snapshot, survey.record, survey.result);
     return rendered;
   });
@@ -129,7 +182,7 @@ HttpAnswer get_survey_volumes(Call& call) {
   call.query.finish();
   const auto id = id_in_path<SurveyId>(call.path[0]);
   const Json json = call.services.store.read([&](const Snapshot& snapshot) {
-    const Found survey = found(snapshot, id);
+    const ListedSurvey survey = found(snapshot, id);
     Json zones = Json::array();
     for (const ZoneFigures& figures : survey.result.zones) zones.push_back(render(figures));
     return Json{{"survey", id.value}, {"zones", std::move(zones)}, {"total", render(survey.result.total)}};
@@ -142,7 +195,7 @@ HttpAnswer list_survey_changes(Call& call) {
   call.query.finish();
   const auto id = id_in_path<SurveyId>(call.path[0]);
   return json_answer(call.services.store.read([&](const Snapshot& snapshot) {
-    const Found survey = found(snapshot, id);
+    const ListedSurvey survey = found(snapshot, id);
     const Eigen::Vector3d origin_m = origin_of(site_with(snapshot, survey.record.site));
     return render_page(survey_changes(snapshot, id, page),
                        [&](const SurveyChange& change) { return render(change, survey.result, origin_m); });

@@ -98,7 +98,7 @@ int run_serve(const Options& options) {
   spdlog::info("stopping on {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
   if (const StopOutcome outcome = daemon.stop(); outcome != StopOutcome::clean) {
     spdlog::warn("a {} did not end in time; it is put back and starts again at the next start",
-                 outcome == StopOutcome::comparisons_abandoned ? "comparison" : "message");
+                 outcome == StopOutcome::comparisons_abandoned ? "comparison or a survey" : "message");
     spdlog::shutdown();
     std::_Exit(kExitDone);  // its thread cannot be stopped, and the store is safe whenever the process ends
   }

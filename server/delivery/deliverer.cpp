@@ -42,6 +42,7 @@ void Deliverer::supervise() {
       const auto enabled = store_.read([](const Snapshot& snapshot) { return enabled_channels(snapshot); });
       match_runners(enabled);
       tell_of_outages(enabled, now_());
+      settle_disabled(now_());
       prune(now_());
     } catch (const std::exception& error) {
       spdlog::error("the channels cannot be looked after: {}", error.what());
@@ -77,6 +78,14 @@ void Deliverer::tell_of_outages(const std::vector<ChannelRecord>& enabled, Time 
       const std::optional<ChannelRecord> still = find_channel(transaction, channel.id);
       if (still && still->failing_since) tell_failing(transaction, *still, still->trouble, now);
     });
+  }
+}
+
+void Deliverer::settle_disabled(Time now) {
+  const auto channels = store_.read([](const Snapshot& snapshot) { return disabled_while_failing(snapshot); });
+  for (const ChannelRecord& channel : channels) {
+    store_.write(
+        [&](Transaction& transaction) { settle_failing(transaction, channel, "The channel was disabled.", now); });
   }
 }
 

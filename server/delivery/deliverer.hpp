@@ -45,6 +45,7 @@ class Deliverer {
   void supervise();
   void match_runners(const std::vector<ChannelRecord>& enabled);
   void tell_of_outages(const std::vector<ChannelRecord>& enabled, Time now);
+  void settle_disabled(Time now);
   void prune(Time now);
 
   const TransferLibrary transfers_;

@@ -29,6 +29,11 @@ std::vector<Site> sites_of(const Snapshot& snapshot, const ChannelRecord& channe
   return sites;
 }
 
+bool is_told_of(const Snapshot& snapshot, const ChannelRecord& channel, SiteId site) {
+  const SystemSubject subject = subject_of(channel, site);
+  return standing_alert(snapshot, subject.site, subject.cause, subject.subject).has_value();
+}
+
 }  // namespace
 
 void tell_failing(Transaction& transaction, const ChannelRecord& channel, const std::string& why, Time now) {
@@ -42,10 +47,20 @@ void tell_failing(Transaction& transaction, const ChannelRecord& channel, const 
 }
 
 bool is_told_failing(const Snapshot& snapshot, const ChannelRecord& channel) {
-  return std::ranges::all_of(sites_of(snapshot, channel), [&](const Site& site) {
-    const SystemSubject subject = subject_of(channel, site.id);
-    return standing_alert(snapshot, subject.site, subject.cause, subject.subject).has_value();
+  return std::ranges::all_of(sites_of(snapshot, channel),
+                             [&](const Site& site) { return is_told_of(snapshot, channel, site.id); });
+}
+
+std::vector<ChannelRecord> disabled_while_failing(const Snapshot& snapshot) {
+  std::vector<ChannelRecord> channels =
+      all_of_list([&](const PageRequest& page) { return list_channels(snapshot, std::nullopt, page); });
+  std::erase_if(channels, [](const ChannelRecord& channel) { return channel.enabled || channel.failing_since; });
+  if (channels.empty()) return {};  // as nearly always: this is asked after each commit
+  const std::vector<Site> sites = all_sites(snapshot);
+  std::erase_if(channels, [&](const ChannelRecord& channel) {
+    return std::ranges::none_of(sites, [&](const Site& site) { return is_told_of(snapshot, channel, site.id); });
   });
+  return channels;
 }
 
 /// The channel may have told of other sites when it was raised.

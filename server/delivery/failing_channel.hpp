@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "storage/channels.hpp"
 
@@ -10,6 +11,8 @@ namespace raywatch {
 void tell_failing(Transaction& transaction, const ChannelRecord& channel, const std::string& why, Time now);
 /// Whether it stands for each of them.
 bool is_told_failing(const Snapshot& snapshot, const ChannelRecord& channel);
+/// The channels that somebody disabled while it stood. One that its receiver sent away is not among them.
+std::vector<ChannelRecord> disabled_while_failing(const Snapshot& snapshot);
 /// Resolves it wherever it stands.
 void settle_failing(Transaction& transaction, const ChannelRecord& channel, const std::string& why, Time now);
 

@@ -85,14 +85,10 @@ void check(CPLErr error, const std::filesystem::path& path) {
 
 /// From the column and the row, counted from the north-west corner, to coordinates.
 std::array<double, 6> geo_transform(const GridLayout& layout, const OutputFrame& frame) {
-  const auto out_m = [&](double columns, double rows_down) {
-    const Eigen::Vector2d local_m = layout.origin_m + layout.cell_m * Eigen::Vector2d(columns, layout.rows - rows_down);
-    return Eigen::Vector2d(frame.output_from_local({local_m.x(), local_m.y(), 0.0}).head<2>());
-  };
-  const Eigen::Vector2d corner = out_m(0.0, 0.0);
-  const Eigen::Vector2d east = (out_m(layout.columns, 0.0) - corner) / layout.columns;
-  const Eigen::Vector2d south = (out_m(0.0, layout.rows) - corner) / layout.rows;
-  return {corner.x(), east.x(), south.x(), corner.y(), east.y(), south.y()};
+  const CellTransform cells = cell_transform(layout, frame);
+  const Eigen::Vector2d corner_m = cells.corner_m + layout.rows * cells.a_row_m;
+  return {corner_m.x(), cells.a_column_m.x(), -cells.a_row_m.x(),
+          corner_m.y(), cells.a_column_m.y(), -cells.a_row_m.y()};
 }
 
 /// An open dataset; closing it writes what is left.

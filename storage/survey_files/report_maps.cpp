@@ -1,6 +1,8 @@
 #include "storage/survey_files/report_maps.hpp"
 
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "storage/survey_files/map_image.hpp"
 #include "storage/survey_files/report_text.hpp"
@@ -76,8 +78,12 @@ class Overlay {
     const double right_m = width_m() - 1.3 * text_m(), down_m = height_m() - 1.0 * text_m(), size_m = text_m();
     const std::string arrow = "<path class=\"ruler\" d=\"M" + length(right_m) + " " + length(down_m - 2.0 * size_m) +
                               "l" + length(0.5 * size_m) + " " + length(1.1 * size_m) + "h" + length(-size_m) + "z\"/>";
-    // In a turned mine grid up is not the grid's north, which readers of the report know.
-    return arrow + text(right_m, down_m, "middle", document_.frame.grid ? "site N" : "N");
+    const std::optional<MineGrid>& grid = document_.frame.grid;
+    if (!grid) return arrow + text(right_m, down_m, "middle", "N");
+    // Maps lie along the site's axes: the grid's north is turned clockwise by as much as they are counter-clockwise.
+    const std::string turn = "rotate(" + length(grid->rotation_rad * 180.0 / std::numbers::pi) + " " + length(right_m) +
+                             " " + length(down_m - 1.3 * size_m) + ")";
+    return "<g transform=\"" + turn + "\">" + arrow + "</g>" + text(right_m, down_m + 0.4 * size_m, "end", "grid N");
   }
 
   const SurveyDocument& document_;

@@ -62,8 +62,9 @@ footer { margin-top: 30px; border-top: 1px solid #d4d8dc; padding-top: 8px; font
   .wide table { min-width: 600px; } }
 @media print { body { padding: 0; max-width: none; font-size: 11px; } .lead { font-size: 13px; } h1 { font-size: 20px; }
   h2 { font-size: 14px; margin-top: 20px; } table { font-size: 9.5px; } td small { font-size: 8.8px; }
-  .wide { overflow: visible; } .maps { gap: 14px; } figure.large svg.map { max-width: 122mm; }
-  figure.small svg.map { max-width: 84mm; } .tiles { grid-template-columns: repeat(4, 1fr); gap: 6px; }
+  .wide { overflow: visible; } .maps { gap: 14px; } figure.large svg.map { width: auto; max-width: 122mm;
+  max-height: 148mm; } table.basis { break-inside: avoid; } figure.small svg.map { width: auto;
+  max-width: 84mm; max-height: 84mm; } .tiles { grid-template-columns: repeat(4, 1fr); gap: 6px; }
   .tile { padding: 6px 8px; } .tile b { font-size: 14px; } .tile span { font-size: 9px; }
   .trends { grid-template-columns: 1fr 1fr 1fr; } table.basis code { font-size: 7.5px; } }
 )css";

@@ -50,7 +50,8 @@ std::string zone_row(const ZoneFigures& zone) {
 }
 
 std::string mass_row(const ZoneFigures& zone) {
-  const auto cell = [](const MassFigure& mass) {
+  const auto cell = [](const MassFigure& mass) -> std::string {
+    if (mass.value_t == 0.0 && mass.low_t == 0.0 && mass.high_t == 0.0) return "none";
     return with_interval(amount_text(mass.value_t) + "\u00a0t", between_text(mass.low_t, mass.high_t, "t"));
   };
   return row({"<b>" + escaped(zone.zone.name) + "</b>", cell(zone.masses->cut), cell(zone.masses->fill),
@@ -91,6 +92,15 @@ std::string registration_rows(const SurveyDocument& document, const char* epoch,
                  number_text(kDegrees * scan.uncertainty.angle_rad, 4) + "°"});
   }
   return body;
+}
+
+std::string grid_text(const MineGrid& grid) {
+  const auto place = [](const Eigen::Vector3d& at_m) {
+    return number_text(at_m.x(), 3) + "; " + number_text(at_m.y(), 3) + "; " + number_text(at_m.z(), 3);
+  };
+  return "local mine grid: (" + place(grid.grid_origin_m) + ") is the place (" + place(grid.site_origin_m) +
+         ") of the site, turned by " + number_text(kDegrees * grid.rotation_rad, 6) + "°, scale " +
+         number_text(grid.scale, 8);
 }
 
 std::string setting(const char* name, const std::string& value) { return row({name, value}); }
@@ -177,7 +187,7 @@ std::string basis_tables(const SurveyDocument& document) {
   body += setting("Points that the other epoch can judge",
                   percent_text(survey.testable_before) + " before, " + percent_text(survey.testable_after) + " after");
   body +=
-      setting("Coordinates", frame.grid   ? "local mine grid"
+      setting("Coordinates", frame.grid   ? grid_text(*frame.grid)
                              : frame.epsg ? escaped(document.crs_name) + " (EPSG:" + std::to_string(*frame.epsg) + ")"
                                           : "of the site, local");
   return html + table("basis", row({"Setting", "Value"}, "th"), body);

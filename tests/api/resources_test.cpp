@@ -79,9 +79,42 @@ TEST_CASE("an edit changes what it names and nothing else") {
   site["profile"] = "outdoor";
   CHECK_EQ(edited.json(), site);
   CHECK_EQ(api.patch("/api/v1/sites/yard", {{"name", "court"}}).status, 422);
-  CHECK_EQ(api.patch("/api/v1/sites/yard", {{"epsg", nullptr}}).complaint_about("epsg"), "must not be null");
+  CHECK_EQ(api.patch("/api/v1/sites/yard", {{"profile", nullptr}}).complaint_about("profile"), "must not be null");
   CHECK_EQ(api.patch("/api/v1/sites/court", {{"profile", "outdoor"}}).status, 404);
   CHECK_EQ(api.get("/api/v1/sites/yard").json(), site);
+}
+
+TEST_CASE("a site has a mine grid instead of an EPSG code") {
+  ApiFixture api;
+  const json grid = {{"site_origin_m", {391000.0, 6460000.0, 310.0}},
+                     {"grid_origin_m", {5000.0, 10000.0, 1310.0}},
+                     {"rotation_deg", 23.5},
+                     {"scale", 0.9996}};
+  const Reply made = api.post("/api/v1/sites", {{"name", "pit"}, {"mine_grid", grid}});
+  REQUIRE_EQ(made.status, 201);
+  CHECK_EQ(made.json()["mine_grid"], grid);
+  CHECK_EQ(api.get("/api/v1/sites/pit").json()["mine_grid"], grid);
+  const std::string both = api.patch("/api/v1/sites/pit", {{"epsg", 28350}}).complaint_about("mine_grid");
+  CHECK_EQ(both, "cannot be given beside 'epsg': give null for the one that does not hold");
+  const json mapped = api.patch("/api/v1/sites/pit", {{"epsg", 28350}, {"mine_grid", nullptr}}).json();
+  CHECK_EQ(mapped["epsg"], 28350);
+  CHECK(mapped["mine_grid"].is_null());
+  json short_grid = grid;
+  short_grid.erase("rotation_deg");
+  short_grid.erase("scale");
+  const json turned = api.patch("/api/v1/sites/pit", {{"epsg", nullptr}, {"mine_grid", short_grid}}).json();
+  CHECK(turned["epsg"].is_null());
+  CHECK_EQ(turned["mine_grid"]["rotation_deg"], 0.0);
+  CHECK_EQ(turned["mine_grid"]["scale"], 1.0);
+  const Reply wrong = api.post(
+      "/api/v1/sites",
+      {{"name", "x"}, {"mine_grid", {{"site_origin_m", {1, 2}}, {"rotation_deg", 400}, {"scale", 2}, {"turn", 1}}}});
+  REQUIRE_EQ(wrong.status, 422);
+  CHECK_EQ(wrong.complaint_about("mine_grid.grid_origin_m"), "is required");
+  for (const char* field : {"site_origin_m", "rotation_deg", "scale", "turn"}) {
+    CAPTURE(field);
+    CHECK_NE(wrong.complaint_about(std::string("mine_grid.") + field), "");
+  }
 }
 
 TEST_CASE("an edit of a version that is no longer stored is refused") {

@@ -1,7 +1,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <map>
+#include <sstream>
 
 #include "tests/api/pit_week.hpp"
 
@@ -109,6 +112,61 @@ void check_files(PitWeek& pit, const std::string& survey) {
   CHECK_EQ(pit.get("/api/v1/surveys/999/bundle.zip").status, 404);
 }
 
+/// A quarter turn about the site's zero, and moved: x and y become 1000 - y and 2000 + x, heights 300 more.
+const json kQuarterTurn = {
+    {"mine_grid",
+     {{"site_origin_m", {0.0, 0.0, 0.0}}, {"grid_origin_m", {1000.0, 2000.0, 300.0}}, {"rotation_deg", 90.0}}}};
+
+/// Every file of a survey goes out in the mine grid of its site.
+void check_mine_grid(PitWeek& pit, const std::string& survey) {
+  const std::string plain_las = pit.get(survey + "/after.las").body;
+  REQUIRE_EQ(pit.patch("/api/v1/sites/pit", kQuarterTurn).status, 200);
+  const json change = pit.items(survey + "/changes").at(0);
+  std::istringstream csv(pit.get(survey + "/changes.csv").body);
+  std::string row, cell;
+  std::getline(csv, row);
+  std::getline(csv, row);
+  std::istringstream cells(row);
+  std::vector<std::string> texts;
+  while (std::getline(cells, cell, ',')) texts.push_back(cell);
+  const auto near = [](double value, double other) { CHECK_LT(std::abs(value - other), 1e-6); };
+  near(std::stod(texts.at(2)), 1000.0 - change["centroid_m"][1].get<double>());
+  near(std::stod(texts.at(3)), 2000.0 + change["centroid_m"][0].get<double>());
+  near(std::stod(texts.at(4)), 300.0 + change["centroid_m"][2].get<double>());
+
+  const json grid = pit.get(survey + "/dod").json();
+  CHECK_EQ(grid["output"]["coordinates"], "mine_grid");
+  near(grid["output"]["corner_m"][0], 1000.0 - grid["corner_m"][1].get<double>());
+  near(grid["output"]["corner_m"][1], 2000.0 + grid["corner_m"][0].get<double>());
+  near(grid["output"]["a_column_m"][1], grid["cell_m"]);
+  near(grid["output"]["a_row_m"][0], -grid["cell_m"].get<double>());
+  near(grid["output"]["above_site_m"], 300.0);
+
+  const json map = json::parse(pit.get(survey + "/map.geojson").body);
+  CHECK_EQ(map["coordinate_system"]["name"], "local mine grid");
+  const json corner = map["features"][0]["geometry"]["coordinates"][0][0];
+  const json zone = pit.get("/api/v1/zones/" + pit.zone().dump()).json();
+  near(corner[0], 1000.0 - zone["polygon_m"][0][1].get<double>());
+  near(corner[1], 2000.0 + zone["polygon_m"][0][0].get<double>());
+
+  // The bounds in the header of LAS 1.4: greatest x at byte 179, then least x, greatest y, least y, and so on.
+  const std::string las = pit.get(survey + "/after.las").body;
+  const auto bound_m = [](const std::string& file, int number) {
+    double value = 0.0;
+    std::memcpy(&value, file.data() + 179 + 8 * number, sizeof value);
+    return value;
+  };
+  near(bound_m(las, 0), 1000.0 - bound_m(plain_las, 3));
+  near(bound_m(las, 2), 2000.0 + bound_m(plain_las, 0));
+  near(bound_m(las, 4), 300.0 + bound_m(plain_las, 4));
+  const std::string report = pit.get(survey + "/report.html").body;
+  CHECK_NE(
+      report.find("local mine grid: (1,000.000; 2,000.000; 300.000) is the place (0.000; 0.000; 0.000) of the site, "
+                  "turned by 90.000000°, scale 1.00000000"),
+      std::string::npos);
+  CHECK_NE(report.find("grid N"), std::string::npos);
+}
+
 TEST_CASE("epochs are made by hand, accepted, compared by hand, and deleted") {
   PitWeek pit;
   for (const std::uint32_t night : {0u, 2u}) pit.upload_night(night);
@@ -142,6 +200,7 @@ TEST_CASE("epochs are made by hand, accepted, compared by hand, and deleted") {
   CHECK_EQ(binary.size(), 48 + 4 * 4 * pit.ground().columns * std::size_t{pit.ground().rows});
 
   check_files(pit, "/api/v1/surveys/" + run["survey"].dump());
+  check_mine_grid(pit, "/api/v1/surveys/" + run["survey"].dump());
 
   const std::string place = "/api/v1/epochs/" + before.json()["id"].dump();
   CHECK_EQ(pit.post(place + "/accept", json::object()).complaint_about("by"), "is required");
@@ -152,6 +211,44 @@ TEST_CASE("epochs are made by hand, accepted, compared by hand, and deleted") {
   CHECK_NE(pit.post("/api/v1/surveys", swapped).complaint_about("before"), "");
   CHECK_EQ(pit.remove(place).status, 204);
   CHECK_EQ(pit.get(place).status, 404);
+}
+
+TEST_CASE("two time windows are surveyed once, without epochs made before; runs are cancelled by name") {
+  PitWeek pit;
+  for (const std::uint32_t night : {0u, 2u}) pit.upload_night(night);
+  const auto window = [](const std::string& day) {
+    return json{{"from", day + "T00:00:00Z"}, {"to", day + "T12:00:00Z"}};
+  };
+  json asked{{"site", "pit"},
+             {"before", window("2026-02-22")},
+             {"after", window("2026-02-24")},
+             {"survey", {{"zones", {pit.zone()}}, {"cell_m", 2.0}, {"core_spacing_m", 8.0}}}};
+  const auto complaint = [&](const char* member, json value, const std::string& about) {
+    json wrong = asked;
+    wrong[member] = std::move(value);
+    return pit.post("/api/v1/surveys", wrong).complaint_about(about);
+  };
+  CHECK_EQ(complaint("before", window("2026-02-23"), "before.from"), "there are no scans between 'from' and 'to'");
+  CHECK_EQ(complaint("after", window("2026-02-22"), "before"),
+           "must end before the epoch 'after' begins, at 2026-02-22T00:00:00Z");
+  CHECK_EQ(complaint("after", {{"from", "2026-02-24T00:00:00Z"}}, "after.to"), "is required");
+  CHECK_EQ(complaint("after", nullptr, "after"), "must not be null");
+  CHECK_NE(complaint("after", "yesterday", "after"), "");
+  CHECK(pit.items("/api/v1/epochs?site=pit").empty());
+
+  const Reply queued = pit.post("/api/v1/surveys", asked);
+  REQUIRE_EQ(queued.status, 202);
+  const json run = pit.finished(queued.json());
+  REQUIRE_EQ(run["state"], "done");
+  CHECK_EQ(pit.items("/api/v1/epochs?site=pit").size(), 2);
+  const json detail = pit.get("/api/v1/surveys/" + run["survey"].dump()).json();
+  CHECK_EQ(detail["ground"]["scans"]["before"].size(), 2);
+  CHECK_EQ(detail["before"]["captured_at"], "2026-02-22T02:00:00Z");
+
+  const std::string cancel = "/api/v1/surveys/runs/" + run["id"].dump() + "/cancel";
+  CHECK_EQ(pit.post(cancel, json::object()).complaint_about("by"), "is required");
+  CHECK_EQ(pit.post(cancel, {{"by", "anna"}}).status, 409);
+  CHECK_EQ(pit.post("/api/v1/surveys/runs/999/cancel", {{"by", "anna"}}).status, 404);
 }
 
 TEST_CASE("schedules are made, read, replaced, refused and deleted") {

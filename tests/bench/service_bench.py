@@ -3,11 +3,13 @@
 
   service_bench.py URL lists      list calls on a store of raywatch-fill-store: median and greatest time
   service_bench.py URL history    the history of a point over the 10,000 scans of its site "long"
+  service_bench.py URL choose     choosing priors for a new scan amid the million of its site "large"
   service_bench.py URL latency    from POST of a 100,000-point scan to its alert on the event stream
   service_bench.py URL stream     130,000-point scans at 10 a second for two minutes: queue, memory, answers
 """
 
 import argparse
+import calendar
 import http.client
 import json
 import math
@@ -55,7 +57,7 @@ def median_and_greatest_ms(action, repeats=15):
     return times[len(times) // 2], times[-1]
 
 
-def view_of_yard(box, seed, columns, rows):
+def view_of_yard(box, seed, columns, rows, place=(1, 2, 1.5)):
     """A PCD of a wall 10 m ahead, ground 1.5 m below, and perhaps a box of one metre at 5 m; 5 mm of noise."""
     noise = random.Random(seed)
     points = bytearray()
@@ -72,7 +74,7 @@ def view_of_yard(box, seed, columns, rows):
     count = rows * columns
     header = (
         "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n"
-        f"WIDTH {count}\nHEIGHT 1\nVIEWPOINT 1 2 1.5 1 0 0 0\nPOINTS {count}\nDATA binary\n"
+        f"WIDTH {count}\nHEIGHT 1\nVIEWPOINT {place[0]} {place[1]} {place[2]} 1 0 0 0\nPOINTS {count}\nDATA binary\n"
     )
     return header.encode() + bytes(points)
 
@@ -82,8 +84,8 @@ def make_yard(daemon):
     daemon.call("POST", "/api/v1/sensors", {"name": "bench-gate", "site": "bench"})
 
 
-def post_scan(daemon, body, captured_at):
-    query = urllib.parse.urlencode({"sensor": "bench-gate", "captured_at": captured_at})
+def post_scan(daemon, body, captured_at, sensor="bench-gate"):
+    query = urllib.parse.urlencode({"sensor": sensor, "captured_at": captured_at})
     return json.loads(daemon.call("POST", f"/api/v1/scans?{query}", body, "application/octet-stream"))
 
 
@@ -103,7 +105,7 @@ def lists(daemon, _):
     ]
     for path in paths:
         count = len(daemon.get("/api/v1/" + path)["items"])
-        median, greatest = median_and_greatest_ms(lambda: daemon.get("/api/v1/" + path))
+        median, greatest = median_and_greatest_ms(lambda: daemon.call("GET", "/api/v1/" + path))
         print(f"{path:82} {count:5} items  median {median:6.1f} ms  greatest {greatest:6.1f} ms", flush=True)
 
 
@@ -114,6 +116,20 @@ def history(daemon, _):
         median, greatest = median_and_greatest_ms(lambda: daemon.get(path), 5)
         print(f"{place}: {answer['scans']} scans, {len(answer['intervals'])} intervals, "
               f"median {median:.0f} ms, greatest {greatest:.0f} ms", flush=True)
+
+
+def choose(daemon, _):
+    for number in range(8):
+        body = view_of_yard(False, number, 650, 200, place=(4.0 * number + 1, 3.0 * number + 2, 2.0))
+        newest = daemon.get("/api/v1/scans?site=large&limit=1")["items"][0]["captured_at"]
+        second = calendar.timegm(time.strptime(newest, "%Y-%m-%dT%H:%M:%SZ")) + 60
+        scan = post_scan(daemon, body, time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(second)), "large-sensor")
+        while (state := daemon.get(f"/api/v1/scans/{scan['id']}")["state"]) not in ("compared", "failed"):
+            time.sleep(0.05)
+        for comparison in daemon.get(f"/api/v1/comparisons?scan={scan['id']}")["items"]:
+            offered = len(daemon.get(f"/api/v1/scans/{scan['id']}/candidates?comparison={comparison['id']}")["items"])
+            print(f"{state} with {comparison['reference']}: {offered} offered, chosen in "
+                  f"{comparison['timings_ms'].get('choose', math.nan):.1f} ms", flush=True)
 
 
 class EventStream(threading.Thread):
@@ -190,7 +206,7 @@ def stream(daemon, arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("url")
-    parser.add_argument("what", choices=("lists", "history", "latency", "stream"))
+    parser.add_argument("what", choices=("lists", "history", "choose", "latency", "stream"))
     parser.add_argument("--rate", type=float, default=10.0, help="scans a second")
     parser.add_argument("--seconds", type=float, default=120.0)
     arguments = parser.parse_args()

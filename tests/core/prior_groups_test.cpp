@@ -56,6 +56,18 @@ TEST_CASE("an accepted removal is no change any more, and its return is one") {
   CHECK(returned.front().kind == ChangeKind::added);
 }
 
+TEST_CASE("what stood in the last of the scans that show together what is normal is not missed later") {
+  const WatchedScan first = look_at_wall(false, kStart), last = look_at_wall(true, kStart + 1h);
+  const WatchedScan now = look_at_wall(false, kStart + 2h);
+  const std::vector<ScanView> priors{first.view(), last.view()};
+  REQUIRE(changes(now, {{priors, {}}}).size() == 1);
+  CHECK(changes(now, {{priors, {}, {true, true}}}).empty());
+  // As an operator who takes a later scan into the baseline says by it that what it shows is normal.
+  CHECK(changes(now, {{priors, {}, {true, false}}}).size() == 1);
+  const WatchedScan also = look_at_wall(true, kStart);
+  CHECK(changes(now, {{{also.view(), last.view()}, {}, {true, true}}}).size() == 1);
+}
+
 TEST_CASE("outside of its region an accepted scan says nothing") {
   // What stood elsewhere when the box was accepted is neither normal nor missing later.
   const WatchedScan empty = look_at_wall(false, kStart), elsewhere = look_at_wall(true, kStart + 1h, 3.0);

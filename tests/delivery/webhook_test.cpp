@@ -119,6 +119,22 @@ TEST_CASE("a channel that fails for long is told of, although it is not given up
   place.wait_until([&] { return !place.failing_alerts().empty(); });
   CHECK(place.failing_alerts()[0].title == "Channel ops (webhook) does not deliver: the receiver answered with 500.");
   CHECK(place.deliveries(channel)[0].state == DeliveryState::pending);
+
+  ChannelRecord disabled = place.channel(channel);
+  disabled.enabled = false;
+  place.store().write([&](Transaction& t) { replace_channel(t, disabled, ToldPlace::now()); });
+  place.wait_until([&] { return place.failing_alerts()[0].state == AlertState::resolved; });
+  CHECK_FALSE(place.channel(channel).failing_since.has_value());
+}
+
+TEST_CASE("deleting a channel that fails settles what was told of it") {
+  DeliveryConfig config = ToldPlace::quick();
+  config.attempts = 1;
+  ToldPlace place(config);
+  HttpReceiver broken(statuses({500}));
+  const ChannelId channel = place.add("ops", hook(broken), {.min_severity = Severity::critical});
+  place.open_alert("Something was added.", Severity::critical);
+  place.wait_until([&] { return !place.failing_alerts().empty(); });
   place.deliverer().delete_channel(channel);
   CHECK(place.failing_alerts()[0].state == AlertState::resolved);
 }

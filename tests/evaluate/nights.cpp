@@ -127,9 +127,9 @@ NightsResult watch_nights(const NightsOptions& options, const std::function<void
   std::map<std::int64_t, Track> tracks;
   for (const TrackRecord& record : site.tracks()) tracks.emplace(record.track.id.value, record.track);
   for (const AlertRecord& alert : site.alerts()) {
-    const bool explained = alert.track && truth.explain(tracks.at(alert.track->value).kind,
-                                                        tracks.at(alert.track->value).anchor_m, alert.opened_at);
-    if (!explained) result.false_alerts.push_back({alert.opened_at, alert.title});
+    const Track* track = alert.track ? &tracks.at(alert.track->value) : nullptr;
+    if (track && truth.explain(track->kind, track->anchor_m, alert.opened_at)) continue;
+    result.false_alerts.push_back({alert.opened_at, alert.title, track ? track->anchor_m : Eigen::AlignedBox3d()});
   }
   result.planted = truth.planted();
   return result;

@@ -31,6 +31,7 @@ struct Planted {
 struct FalseAlert {
   Time at;
   std::string title;
+  Eigen::AlignedBox3d box_m;  ///< of its track at the beginning; empty for alerts of the system
 };
 
 struct NightsResult {

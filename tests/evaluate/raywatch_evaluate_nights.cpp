@@ -1,6 +1,8 @@
 /// Watches simulated nights and compares the alerts with what really happened.
 
+#include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <exception>
 
@@ -21,7 +23,13 @@ void report(const NightsResult& result) {
       result.scans, result.passers, result.planted.size(), result.told(1), result.told(0),
       result.planted.size() - result.told(0) - result.told(1), result.false_alerts.size());
   for (const FalseAlert& alert : result.false_alerts) {
-    std::printf("- %s: %s\n", format_rfc3339(alert.at).c_str(), alert.title.c_str());
+    std::printf("- %s: %s", format_rfc3339(alert.at).c_str(), alert.title.c_str());
+    const Eigen::Vector3d low_m = alert.box_m.min(), high_m = alert.box_m.max();
+    if (!alert.box_m.isEmpty()) {
+      std::printf(" From (%.2f, %.2f, %.2f) to (%.2f, %.2f, %.2f) m.", low_m.x(), low_m.y(), low_m.z(), high_m.x(),
+                  high_m.y(), high_m.z());
+    }
+    std::printf("\n");
   }
 }
 
@@ -45,6 +53,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(4U, 10'000U))
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
+  spdlog::set_level(spdlog::level::err);
   try {
     report(watch_nights(options, [&](std::size_t scans) {
       if (scans % 20 == 0) std::fprintf(stderr, "\r%zu of %u scans", scans, options.scans);

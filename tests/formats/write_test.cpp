@@ -122,7 +122,8 @@ TEST_CASE("a stream that fails is an error of the store") {
 TEST_CASE("names of point formats are parsed strictly and have media types") {
   CHECK(parse_point_format("ply") == PointFormat::ply);
   CHECK(parse_point_format("bin") == PointFormat::bin);
-  CHECK_THROWS_WITH_AS(parse_point_format("las"), doctest::Contains("known are pcd, ply, csv, bin and q16"), InvalidInput);
+  CHECK_THROWS_WITH_AS(parse_point_format("las"), doctest::Contains("known are pcd, ply, csv, bin and q16"),
+                       InvalidInput);
   CHECK(media_type(PointFormat::csv) == "text/csv; charset=utf-8");
   CHECK(media_type(PointFormat::bin) == "application/octet-stream");
 }

@@ -41,8 +41,11 @@ struct Watched {
   fs::path folder = directory / "in";
   Store store{{.data_dir = directory / "data", .readers = 2, .min_free_bytes = 0}};
   Time clock = wall_time(24 * 60);
+  IndexCache cache{0};
   IngestService service{
-      store, {.queue_limit = 1000, .future_tolerance = seconds(60), .file_limits = {}}, [this] { return clock; }};
+      store, cache, {.queue_limit = 1000, .future_tolerance = seconds(60), .file_limits = {}}, [this] {
+        return clock;
+      }};
   FolderStatus status;
   FolderConfig config;
   std::unique_ptr<FolderIntake> intake;

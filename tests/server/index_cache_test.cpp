@@ -44,6 +44,21 @@ TEST_CASE("a scan is built once and then found") {
   CHECK(cache.status().bytes == first->bytes());
 }
 
+TEST_CASE("a scan that is in memory already is not built, and what is here stays") {
+  IndexCache cache(1 << 30);
+  Builder builder;
+  cache.put(key(1), small_scan());
+  const auto found = cache.get(key(1), builder.build);
+  CHECK(builder.builds == 0);
+  CHECK(cache.status().bytes == found->bytes());
+  cache.put(key(1), small_scan());
+  CHECK(cache.get(key(1), builder.build) == found);
+  CHECK(cache.status().bytes == found->bytes());
+  IndexCache none(0);
+  none.put(key(1), small_scan());
+  CHECK(none.status().bytes == 0);
+}
+
 TEST_CASE("the same scan with another usable range is another index") {
   IndexCache cache(1 << 30);
   Builder builder;

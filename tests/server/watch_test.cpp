@@ -44,6 +44,16 @@ TEST_CASE("the first scans of a place are what is normal, and alerts wait meanwh
   CHECK(count(place.events(), "baseline.learned") == 3);
 }
 
+TEST_CASE("who passes while the last scan of the learned ones is taken is not missed later") {
+  WatchedPlace place;
+  place.take();
+  place.take();
+  place.take({.person_y_m = 2.0});
+  for (int i = 0; i < 4; ++i) place.take();
+  CHECK(place.alerts().empty());
+  CHECK(place.tracks().empty());
+}
+
 TEST_CASE("a bag that is left is one alert, however many scans see it, and it resolves when the bag is gone") {
   WatchedPlace place;
   place.learn();

@@ -140,6 +140,6 @@ TEST_CASE("the box of the lab is 14 x 17 x 40 cm and stands at four places in tu
 
 TEST_CASE("an unknown family is refused with the known ones") {
   CHECK(parse_family("yard") == Family::yard);
-  CHECK_THROWS_WITH_AS(parse_family("yrad"), "unknown family \"yrad\"; known are sim, lab, carpark, yard, mine, pit, stream",
-                       InvalidInput);
+  CHECK_THROWS_WITH_AS(parse_family("yrad"),
+                       "unknown family \"yrad\"; known are sim, lab, carpark, yard, mine, pit, stream", InvalidInput);
 }

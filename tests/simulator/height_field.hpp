@@ -79,8 +79,8 @@ class HeightField {
   std::vector<Level> levels_;  ///< 0: single cells; each next one has blocks of 2 x 2
 };
 
-/// The mean height over a rectangle inside the field, exactly: over any rectangle, a bilinear function has the mean that
-/// it has in the middle.
+/// The mean height over a rectangle inside the field, exactly: over any rectangle, a bilinear function has the mean
+/// that it has in the middle.
 double mean_height_m(const HeightField& field, const Eigen::AlignedBox2d& area_m);
 
 /// What lies between two fields of one layout. Positive numbers.

@@ -11,6 +11,14 @@ struct JobFixture : StoreFixture {
   std::optional<Job> start() {
     return store.write([&](Transaction& t) { return start_job(t, site.id); });
   }
+  void finish(const Job& job) {
+    store.write([&](Transaction& t) { finish_job(t, job, {}, at_second(100)); });
+  }
+  ComparisonId start_and_finish() {
+    const Job job = start().value();
+    finish(job);
+    return job.comparison;
+  }
   std::uint64_t requeue_started() {
     return store.write([](Transaction& t) { return requeue_started_jobs(t); });
   }
@@ -28,10 +36,35 @@ TEST_CASE_FIXTURE(JobFixture, "jobs of a site start in the order of capture, the
   const ComparisonId of_late = add_comparison(store, late.id).id;
   const ComparisonId of_early = add_comparison(store, early.id).id;
   const ComparisonId again = add_comparison(store, early.id).id;
-  CHECK(start()->comparison == of_early);
-  CHECK(start()->comparison == again);
-  CHECK(start()->comparison == of_late);
+  CHECK(start_and_finish() == of_early);
+  CHECK(start_and_finish() == again);
+  CHECK(start_and_finish() == of_late);
   CHECK_FALSE(start().has_value());
+}
+
+TEST_CASE_FIXTURE(JobFixture, "watched comparisons follow one another, beside all others of later scans") {
+  const ScanId first = add_scan(store, sensor, {at_second(1)}).id;
+  const ScanId second = add_scan(store, sensor, {at_second(2)}).id;
+  for (const ScanId id : {first, second}) {
+    add_comparison(store, id);
+    add_comparison(store, id, Watching::yes);
+  }
+  const Job of_first = start().value();
+  CHECK(of_first.scan == first);
+  CHECK_FALSE(start().has_value());  // the watched one of this scan needs its pose, and the next is not its turn
+  finish(of_first);
+  const Job watched = start().value();
+  CHECK(watched.scan == first);
+  CHECK(comparison(watched.comparison).watching);
+  const Job of_second = start().value();
+  CHECK(of_second.scan == second);
+  CHECK_FALSE(comparison(of_second.comparison).watching);
+  finish(of_second);
+  CHECK_FALSE(start().has_value());
+  finish(watched);
+  const Job last = start().value();
+  CHECK(last.scan == second);
+  CHECK(comparison(last.comparison).watching);
 }
 
 TEST_CASE_FIXTURE(JobFixture, "a scan is queued, comparing, then compared") {

@@ -40,6 +40,29 @@ TEST_CASE_FIXTURE(StoreFixture, "an edit changes what it names and nothing else"
   CHECK(edited.name == site.name);
 }
 
+TEST_CASE_FIXTURE(StoreFixture, "a site has an EPSG code or a mine grid, never both, and either is taken away again") {
+  const auto edit = [&](const SiteEdit& what) {
+    store.write([&](Transaction& t) { edit_site(t, site.id, what); });
+    return store.read([&](const Snapshot& s) { return find_site(s, site.id).value(); });
+  };
+  const MineGrid grid{
+      .site_origin_m = {1.5, 2.0, 3.0}, .grid_origin_m = {1e4, 2e4, 0.1}, .rotation_rad = 0.3, .scale = 0.9996};
+  const Site gridded = edit({.mine_grid = grid});
+  REQUIRE(gridded.mine_grid);
+  CHECK(gridded.mine_grid->site_origin_m == grid.site_origin_m);
+  CHECK(gridded.mine_grid->grid_origin_m == grid.grid_origin_m);
+  CHECK(gridded.mine_grid->rotation_rad == grid.rotation_rad);
+  CHECK(gridded.mine_grid->scale == grid.scale);
+  CHECK(output_frame(gridded).grid->scale == grid.scale);
+  CHECK_THROWS_AS(edit({.epsg = 25833}), InvalidInput);
+  const Site mapped = edit({.epsg = 25833, .mine_grid = std::optional<MineGrid>()});
+  CHECK(mapped.epsg == 25833);
+  CHECK_FALSE(mapped.mine_grid);
+  CHECK_THROWS_AS(edit({.mine_grid = grid}), InvalidInput);
+  CHECK_FALSE(edit({.epsg = std::optional<int>()}).epsg);
+  CHECK_THROWS_AS(edit({.mine_grid = MineGrid{.scale = 1000.0}}), InvalidInput);
+}
+
 TEST_CASE_FIXTURE(StoreFixture, "the origin of a site with scans cannot be moved") {
   SiteEdit edit;
   edit.origin_m = Eigen::Vector3d(1.0, 2.0, 3.0);

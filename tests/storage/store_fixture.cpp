@@ -77,9 +77,9 @@ ScanRecord add_scan_with_points(Store& store, const Sensor& sensor, const ScanSk
   return store.write([&](Transaction& transaction) { return insert_scan(transaction, scan); });
 }
 
-ComparisonRecord add_comparison(Store& store, ScanId scan) {
+ComparisonRecord add_comparison(Store& store, ScanId scan, Watching watching) {
   return store.write([&](Transaction& transaction) {
-    return insert_comparison(transaction, scan, PreviousReference{}, CompareParameters{}, at_second(0));
+    return insert_comparison(transaction, scan, PreviousReference{}, CompareParameters{}, at_second(0), watching);
   });
 }
 

@@ -39,7 +39,7 @@ ScanRecord add_scan(Store& store, const Sensor& sensor, const ScanSketch& sketch
 /// Puts the points and inserts their record.
 ScanRecord add_scan_with_points(Store& store, const Sensor& sensor, const ScanSketch& sketch, const PointCloud& points);
 
-ComparisonRecord add_comparison(Store& store, ScanId scan);
+ComparisonRecord add_comparison(Store& store, ScanId scan, Watching watching = Watching::no);
 /// A change whose bounds are the cube of side 1 m around a place.
 Change change_at(const Eigen::Vector3d& place_m, ChangeKind kind = ChangeKind::added);
 /// Starts the next job of the site and finishes it with these changes.

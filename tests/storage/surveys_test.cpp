@@ -109,7 +109,11 @@ TEST_CASE("what a survey found comes back as it was stored") {
     const Page<SurveyChange> rest = survey_changes(s, stored.id, {.limit = 2, .cursor = first.next});
     CHECK(rest.items.size() == 1);
     CHECK_FALSE(rest.next);
-    CHECK(list_surveys(s, {.site = place.site.id}, {}).items.size() == 1);
+    const Page<ListedSurvey> listed = list_surveys(s, {.site = place.site.id}, {});
+    REQUIRE(listed.items.size() == 1);
+    CHECK(listed.items[0].site == place.site.name);
+    CHECK(listed.items[0].result.total.volumes.net.value_m3 ==
+          survey_result(s, listed.items[0].record.id).total.volumes.net.value_m3);
     CHECK(list_surveys(s, {.site = {}, .schedule = ScheduleId{9}}, {}).items.empty());
   });
 }
@@ -352,7 +356,8 @@ TEST_CASE("after any kill in the middle of surveys each is there whole or not at
     const auto surveys =
         store.read([](const Snapshot& s) { return list_surveys(s, {}, {.limit = 1000, .cursor = {}}); });
     std::set<std::int64_t> made;
-    for (const SurveyRecord& survey : surveys.items) {
+    for (const ListedSurvey& listed : surveys.items) {
+      const SurveyRecord& survey = listed.record;
       CHECK(made.insert(survey.run.value).second);
       SurveyResult read;
       read_models(store.payloads(), survey.models, read);

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <numbers>
 #include <regex>
 
 #include "storage/survey_files/map_image.hpp"
@@ -39,6 +40,28 @@ int check_well_formed(const std::string& html) {
   }
   CHECK(open.empty());
   return count;
+}
+
+TEST_CASE("in a mine grid the report says which, and its arrow points to the grid's north; a mass of nothing is none") {
+  const PitSurvey pit;
+  SurveyResult quiet = pit.document().survey;
+  REQUIRE(quiet.zones.front().masses);
+  quiet.zones.front().masses = ZoneMasses{};
+  const SurveyDocument document{
+      .survey = quiet,
+      .id = SurveyId{4},
+      .site = "pit",
+      .before_at = {},
+      .after_at = {},
+      .made_at = {},
+      .frame = {.grid = MineGrid{.grid_origin_m = {5000.0, 9000.0, 0.0}, .rotation_rad = std::numbers::pi / 6.0}}};
+  const std::string html = survey_report(document);
+  CHECK(check_well_formed(html) > 300);
+  CHECK(html.find("(5,000.000; 9,000.000; 0.000) is the place (0.000; 0.000; 0.000) of the site, turned by 30.000000°, "
+                  "scale 1.00000000") != std::string::npos);
+  CHECK(html.find("transform=\"rotate(30.000000 ") != std::string::npos);
+  CHECK(html.find(">grid N<") != std::string::npos);
+  CHECK(html.find("<td>none</td><td>none</td><td>none</td>") != std::string::npos);
 }
 
 TEST_CASE("a report is well-formed, self-contained, without scripts, and says what a surveyor needs") {

@@ -3,7 +3,7 @@
 import { rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { kYardScans, simulateYard } from './support/build';
+import { kYardScans, simulatePit, simulateYard } from './support/build';
 import { expect, signIn, test } from './support/fixtures';
 import { pixelsLike } from './support/picture';
 
@@ -42,4 +42,18 @@ test('pictures of the main views', async ({ page, daemon }) => {
   await expect.poll(() => pixelsLike(page.locator('.scene'), [255, 122, 31])).toBeGreaterThan(50);
   await expect(page.getByRole('region', { name: 'Panorama' }).getByRole('application')).toBeVisible();
   await page.screenshot({ path: join(kPictures, 'change.png') });
+});
+
+test('a picture of a survey', async ({ page, daemon }) => {
+  test.setTimeout(300_000);
+  const folder = join(tmpdir(), 'raywatch-pictures-pit');
+  rmSync(folder, { recursive: true, force: true });
+  simulatePit(folder, 1);
+  await daemon.makePit(folder, 2);
+  await page.emulateMedia({ colorScheme: 'light' });
+  await page.setViewportSize({ width: 1280, height: 860 });
+  await page.goto(`${daemon.url}/surveys/2`);
+  await expect(page.getByRole('application', { name: /difference of both epochs/ })).toBeVisible();
+  await expect(page.getByText(/its size from/)).toBeVisible();
+  await page.screenshot({ path: join(kPictures, 'survey.png') });
 });

@@ -12,12 +12,21 @@ export const kBuild = resolve(
 export const kYard = resolve(kBuild, 'e2e-yard');
 export const kYardScans = 14;
 
+/** The scans of a pit from two stations, a night each from 1 March 2026 on, thin. Made once. */
+export const kPit = resolve(kBuild, 'e2e-pit');
+
 export function simulateYard(folder = kYard, more: readonly string[] = []): void {
+  simulate('yard', folder, ['--scans', String(kYardScans), '--density', '0.3', '--interval-s', '30', ...more]);
+}
+
+export function simulatePit(folder = kPit, density = 0.12): void {
+  simulate('pit', folder, ['--seed', '3', '--density', String(density), '--start', '2026-03-01T02:00:00Z']);
+}
+
+function simulate(family: string, folder: string, options: readonly string[]): void {
   if (existsSync(resolve(folder, 'manifest.json'))) return;
-  const made = spawnSync(
-    resolve(kBuild, 'raywatch-simulate'),
-    ['yard', '--output', folder, '--scans', String(kYardScans), '--density', '0.3', '--interval-s', '30', ...more],
-    { stdio: ['ignore', 'ignore', 'inherit'] },
-  );
+  const made = spawnSync(resolve(kBuild, 'raywatch-simulate'), [family, '--output', folder, ...options], {
+    stdio: ['ignore', 'ignore', 'inherit'],
+  });
   if (made.status !== 0) throw new Error(`raywatch-simulate failed; is it built in ${kBuild}?`);
 }

@@ -5,7 +5,7 @@ import { once } from 'node:events';
 import { cp, mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { kBuild, kYard } from './build';
+import { kBuild, kPit, kYard } from './build';
 
 interface SideCar {
   captured_at: string;
@@ -100,10 +100,44 @@ export class Daemon {
     for (const rule of rules) await this.post('/api/v1/rules', { site: 'yard', persistence, ...rule });
   }
 
-  /** Uploads scans of the simulated yard, and waits for their comparisons. */
-  async upload(first: number, end: number, folder = kYard): Promise<void> {
+  /** The pit, which a schedule has surveyed: a first night, one with a result, one without scans, another, and none. */
+  async makePit(folder = kPit, cell_m = 4): Promise<void> {
+    await this.post('/api/v1/sites', { name: 'pit', profile: 'survey', time_zone: 'Australia/Perth', epsg: 28350 });
+    for (const name of ['pit-1', 'pit-2']) await this.post('/api/v1/sensors', { name, site: 'pit' });
+    const polygon_m = [
+      [-26, -80],
+      [30, -80],
+      [30, 80],
+      [-26, 80],
+    ];
+    const zone = { site: 'pit', name: 'bench', kind: 'volume', z_min_m: -1, z_max_m: 40, polygon_m };
+    const { id } = await this.post<{ id: number }>('/api/v1/zones', zone);
+    for (const night of [0, 1, 3]) await this.upload(2 * night, 2 * night + 2, folder, 'pit');
+    const levels = { figure: 'cut_m3', zone: id, yellow: 200, orange: 1000, red: 20000 };
+    await this.post('/api/v1/schedules', {
+      site: 'pit',
+      name: 'nightly',
+      cron: '0 13 1-5 3 *',
+      since: '2026-03-01T00:00:00Z',
+      catch_up: 'all',
+      grace_s: 0,
+      survey: { zones: [id], cell_m, core_spacing_m: cell_m, density_t_per_m3: 2.65, thresholds: [levels] },
+    });
+    await this.until<{ items: { state: string }[] }>(
+      '/api/v1/schedules/1/runs',
+      ({ items }) => items.length === 5 && items.every(({ state }) => state !== 'queued' && state !== 'running'),
+    );
+  }
+
+  /** Asks until the answer is as it shall be. */
+  async until<T>(path: string, holds: (answer: T) => boolean): Promise<void> {
+    while (!holds(await this.get<T>(path))) await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+
+  /** Uploads scans of a simulated place, and waits for their comparisons. */
+  async upload(first: number, end: number, folder = kYard, family = 'yard'): Promise<void> {
     for (let number = first; number < end; ++number) {
-      const file = join(folder, `yard_${String(number).padStart(4, '0')}.pcd`);
+      const file = join(folder, `${family}_${String(number).padStart(4, '0')}.pcd`);
       const sideCar = JSON.parse(await readFile(`${file}.json`, 'utf8')) as SideCar;
       const query = new URLSearchParams({
         sensor: sideCar.sensor,

@@ -2,7 +2,7 @@
 
 import { test as base, expect, type Page } from '@playwright/test';
 import { createRequire } from 'node:module';
-import { kYardScans } from './build';
+import { kYardScans, simulatePit } from './build';
 import { Daemon } from './daemon';
 
 /** What went wrong in a page: messages of errors, exceptions, and requests that failed. */
@@ -40,11 +40,14 @@ interface Fixtures {
   daemon: Daemon;
   /** A store with the whole story of the yard. */
   yard: Daemon;
+  /** A store with surveyed nights of a pit. */
+  pit: Daemon;
   troubles: Troubles;
 }
 
 interface WorkerFixtures {
   yardStore: string;
+  pitStore: string;
 }
 
 /** The page leaves before its daemon does: what it would say of that is no trouble. */
@@ -66,11 +69,25 @@ export const test = base.extend<Fixtures, WorkerFixtures>({
     },
     { scope: 'worker', timeout: 120_000 },
   ],
+  pitStore: [
+    async ({}, use) => {
+      simulatePit();
+      const daemon = await Daemon.start();
+      await daemon.makePit();
+      await daemon.stop();
+      await use(daemon.store);
+      await daemon.end();
+    },
+    { scope: 'worker', timeout: 120_000 },
+  ],
   daemon: async ({ page }, use) => {
     await useDaemon(await Daemon.start(), page, use);
   },
   yard: async ({ page, yardStore }, use) => {
     await useDaemon(await Daemon.start(yardStore), page, use);
+  },
+  pit: async ({ page, pitStore }, use) => {
+    await useDaemon(await Daemon.start(pitStore), page, use);
   },
   troubles: [
     async ({ page }, use) => {

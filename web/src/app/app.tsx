@@ -171,6 +171,16 @@ export function useResource<T>(from: Address<T> | undefined): Resource<T> {
   return useSelect((state) => (from === undefined ? kNothing : (state.resources[from] ?? kNothing))) as Resource<T>;
 }
 
+/** The same for several addresses, whose number may change. */
+export function useResources<T>(from: readonly Address<T>[]): readonly Resource<T>[] {
+  useEffect(() => {
+    const ends = from.map((each) => loader.use(each));
+    return () => ends.forEach((end) => end());
+  }, [from.join('\n')]);
+  const known = useSelect((state) => state.resources);
+  return from.map((each) => (known[each] ?? kNothing) as Resource<T>);
+}
+
 /** The keys that a view understands while it is there. */
 export function useKeys(bindings: readonly KeyBinding[]): void {
   const current = useRef(bindings);

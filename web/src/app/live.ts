@@ -18,6 +18,7 @@ const kTouched: Readonly<Record<string, readonly string[]>> = {
   silence: ['silences'],
   channel: ['channels'],
   delivery: ['deliveries'],
+  survey: ['surveys', 'schedules', 'epochs'],
 };
 
 /** Whether what is found at `key` may have changed by `event`. Lists change as a whole; single things only by their own events. */

@@ -47,6 +47,7 @@ const comparisons = loaded(() => import('../features/comparisons/views'));
 const zones = loaded(() => import('../features/zones/views'));
 const channels = loaded(() => import('../features/channels/views'));
 const rules = loaded(() => import('../features/rules/views'));
+const surveys = loaded(() => import('../features/surveys/views'));
 const storage = loaded(() => import('../features/storage/storage_view'));
 
 export const kViews: readonly View[] = [
@@ -66,6 +67,11 @@ export const kViews: readonly View[] = [
   view('/compare', 'Compare by hand', comparisons('CompareView')),
   view('/sensors', 'Sensors', SensorsView, { icon: 'sensor' }),
   view('/sensors/:name', 'Sensor', SensorView),
+  view('/surveys', 'Surveys', surveys('SurveysView'), { icon: 'survey' }),
+  view('/surveys/series', 'Series of surveys', surveys('SeriesView')),
+  view('/surveys/:id', 'Survey', surveys('SurveyView')),
+  view('/surveys/schedules/new', 'New schedule', surveys('NewScheduleView')),
+  view('/surveys/schedules/:id', 'Schedule', surveys('ScheduleView')),
   view('/baselines', 'Baselines', BaselinesView, { icon: 'baseline' }),
   view('/silences', 'Silences', SilencesView, { icon: 'silence' }),
   view('/zones', 'Zones', zones('ZonesView'), { icon: 'zone' }),

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { ago, bytes, counted, dateTime, duration, percent, shortTime, volume } from './format';
+import { clockOf, dayOf, ago, bytes, counted, dateTime, duration, percent, shortTime, volume } from './format';
 
 /** Without caring which kind of blank stands before a unit. */
 const plain = (text: string): string => text.replaceAll('\u00a0', ' ');
@@ -42,5 +42,12 @@ describe('what people read', () => {
     expect(plain(ago('2026-03-28T11:57:00Z', now_ms))).toBe('3 min ago');
     expect(plain(ago('2026-03-28T12:00:01Z', now_ms))).toBe('just now');
     expect(plain(ago('2026-03-28T14:00:00Z', now_ms))).toBe('in 2 h 00 min');
+  });
+
+  it('name a night by its day', () => {
+    const now_ms = Date.parse('2026-12-31T12:00:00Z');
+    expect(dayOf('2026-11-20T20:00:00Z', 'Australia/Perth', now_ms)).toBe('Sat 21 Nov');
+    expect(dayOf('2026-11-20T20:00:00Z', 'Australia/Perth', now_ms + 86_400_000)).toBe('Sat, 21 Nov 2026');
+    expect(clockOf('2026-11-20T05:00:00Z', 'Australia/Perth')).toMatch(/^13:00 (GMT\+8|AWST)$/);
   });
 });

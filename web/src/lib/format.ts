@@ -105,3 +105,15 @@ export function shortTime(time: string, zone: string, now_ms: number): string {
   if (same({ month: 'numeric', day: 'numeric' })) return timeFormat(zone, clock).format(moment);
   return timeFormat(zone, { day: 'numeric', month: 'short', ...clock }).format(moment);
 }
+
+/** "Fri 20 Nov", "Fri, 20 Nov 2020": the year where it is not that of now. */
+export function dayOf(time: string, zone: string, now_ms: number): string {
+  const yearOf = (moment: Date): string => timeFormat(zone, { year: 'numeric' }).format(moment);
+  const moment = new Date(time);
+  const year = yearOf(moment) === yearOf(new Date(now_ms)) ? {} : ({ year: 'numeric' } as const);
+  return timeFormat(zone, { weekday: 'short', day: 'numeric', month: 'short', ...year }).format(moment);
+}
+
+/** "13:00 GMT+8". */
+export const clockOf = (time: string, zone: string): string =>
+  timeFormat(zone, { hour: '2-digit', minute: '2-digit', timeZoneName: 'short' }).format(new Date(time));

@@ -15,6 +15,7 @@ const kPaths = {
   delivery: 'M3 11 21 3l-7 18-3-7zM11 14 21 3',
   channel: 'M4 10v4h4l6 4V6L8 10zM17 9a4 4 0 0 1 0 6M19.5 6.5a8 8 0 0 1 0 11',
   storage: 'M4 6c0-4 16-4 16 0v12c0 4-16 4-16 0zM4 6c0 4 16 4 16 0M4 12c0 4 16 4 16 0',
+  survey: 'M3 20h18M3 20l6-9 4 5 3-4 5 8M7 5h6M10 2v6',
   menu: 'M4 6h16M4 12h16M4 18h16',
   close: 'M5 5l14 14M19 5 5 19',
   check: 'M4 12.5 9.5 18 20 6',

@@ -17,13 +17,28 @@ export interface SeriesChartProps {
   unit: string;
   /** Of the values; from zero to a little above the greatest when it is not given. */
   range?: readonly [number, number];
+  /** Around the first series, such as its interval: drawn as an area. */
+  band?: { readonly name: string; readonly low: Values; readonly high: Values } | undefined;
+  /** Drawn across, with their words. */
+  limits?: readonly Limit[];
+  /** Whether a moment without a value breaks the line; otherwise the line goes on over it. */
+  gaps?: boolean;
+}
+
+/** One for each moment; null where there is none. */
+type Values = readonly (number | null)[];
+
+export interface Limit {
+  readonly at: number;
+  /** A name of the theme, such as "--critical". */
+  readonly colour: string;
+  readonly words: string;
 }
 
 export interface Series {
   /** Not needed where there is one. */
   readonly name?: string;
-  /** One for each moment; null where there is none. */
-  readonly values: readonly (number | null)[];
+  readonly values: Values;
 }
 
 const kHeight_px = 180;
@@ -38,7 +53,7 @@ const kLooks = [
 ] as const;
 
 export function SeriesChart(props: SeriesChartProps) {
-  const { label, site, at_s, series, unit } = props;
+  const { label, site, at_s, series, unit, band, limits } = props;
   const place = useRef<HTMLDivElement>(null);
   const zone = useZone(site);
   const theme = useTheme();
@@ -47,7 +62,10 @@ export function SeriesChart(props: SeriesChartProps) {
     if (!element) return;
     const chart = new uPlot(
       optionsFor(element, { ...props, zone }),
-      [[...at_s], ...series.map(({ values }) => [...values])],
+      [
+        [...at_s],
+        ...[...series.map(({ values }) => values), ...(band ? [band.low, band.high] : [])].map((each) => [...each]),
+      ],
       element,
     );
     const sizes = new ResizeObserver(() => chart.setSize({ width: element.clientWidth, height: kHeight_px }));
@@ -56,7 +74,7 @@ export function SeriesChart(props: SeriesChartProps) {
       sizes.disconnect();
       chart.destroy();
     };
-  }, [JSON.stringify(at_s), JSON.stringify(series), label, unit, zone, theme]);
+  }, [JSON.stringify([at_s, series, band, limits]), label, unit, zone, theme]);
   const values = series.flatMap((each) => each.values.filter((value) => value !== null));
   const [least, most] = [Math.min(...values), Math.max(...values)];
   return (
@@ -81,6 +99,7 @@ function useTheme(): string {
 
 function optionsFor(element: HTMLElement, about: SeriesChartProps & { zone: string }): uPlot.Options {
   const colour = (name: string): string => resolved(element, `var(${name})`);
+  const value = (_: uPlot, of: number | null): string => (of == null ? '–' : `${kNumber.format(of)} ${about.unit}`);
   const axis = { stroke: colour('--muted'), grid: { stroke: colour('--line'), width: 1 }, ticks: { show: false } };
   return {
     width: Math.max(200, element.clientWidth),
@@ -102,13 +121,46 @@ function optionsFor(element: HTMLElement, about: SeriesChartProps & { zone: stri
           stroke: colour(look.colour),
           dash: [...look.dash],
           width: 2,
-          spanGaps: true,
+          spanGaps: !about.gaps,
           points: { size: 5 },
-          value: (_, value) => (value == null ? '–' : `${kNumber.format(value)} ${about.unit}`),
+          value,
         };
       }),
+      ...(about.band ? ['from', 'to'] : []).map((end): uPlot.Series => ({
+        label: `${about.band?.name} ${end}`,
+        width: 0,
+        points: { show: false },
+        value,
+      })),
     ],
+    ...(about.band ? { bands: [{ series: bandOf(about.series.length), fill: colour('--band') }] } : {}),
+    hooks: { draw: [(chart) => drawLimits(chart, about.limits ?? [], colour)] },
   };
+}
+
+/** The upper and the lower edge stand behind the others. */
+const bandOf = (series: number): [number, number] => [series + 2, series + 1];
+
+/** Lines across, each with its words at its right end. */
+function drawLimits(chart: uPlot, limits: readonly Limit[], colour: (name: string) => string): void {
+  const { ctx, bbox } = chart;
+  ctx.save();
+  ctx.lineWidth = devicePixelRatio;
+  ctx.setLineDash([6 * devicePixelRatio, 4 * devicePixelRatio]);
+  ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
+  ctx.textAlign = 'right';
+  ctx.textBaseline = 'bottom';
+  for (const { at, colour: name, words } of limits) {
+    const y = chart.valToPos(at, 'y', true);
+    if (y < bbox.top || y > bbox.top + bbox.height) continue;
+    ctx.strokeStyle = ctx.fillStyle = colour(name);
+    ctx.beginPath();
+    ctx.moveTo(bbox.left, y);
+    ctx.lineTo(bbox.left + bbox.width, y);
+    ctx.stroke();
+    ctx.fillText(words, bbox.left + bbox.width, y - devicePixelRatio);
+  }
+  ctx.restore();
 }
 
 /** With 24 hours: uPlot's own templates have 12. */

@@ -1,6 +1,7 @@
 // One alert: what to do about it, why it was raised, and what was done.
 
 import { store, useResource, useSelect } from '../../app/app';
+import { linkTo } from '../../app/router';
 import { address, type Schema } from '../../lib/api';
 import { SeverityBadge, StateBadge } from '../../ui/badges';
 import { NoteField } from '../../ui/confirm_dialog';
@@ -112,6 +113,12 @@ function SystemAlert({ alert }: { alert: Detail }) {
           <>
             {' '}
             It was raised by <ViewLink to={`/scans/${alert.scan}`}>scan {alert.scan}</ViewLink>.
+          </>
+        )}
+        {alert.cause.startsWith('survey-') && (
+          <>
+            {' '}
+            It is about <a href={linkTo('/surveys', { site: alert.site })}>the surveys of {alert.site}</a>.
           </>
         )}
       </p>

@@ -1,6 +1,7 @@
 import { useEffect } from 'preact/hooks';
 import { loader, showProblem, showToast, useResource } from '../../app/app';
 import { withOperator } from '../../app/operator';
+import { useSites } from '../../app/sites';
 import { address, type Schema, send } from '../../lib/api';
 import { count } from '../../lib/format';
 import { Problem } from '../../lib/problem';
@@ -27,7 +28,8 @@ async function retry(id: number, by: string): Promise<void> {
 }
 
 /** What the latest attempt brought: "200 after 12 ms", or why it failed. */
-function Answer({ delivery: { response_code, took_ms, error, next_attempt_at } }: { delivery: Delivery }) {
+function Answer({ delivery, site }: { delivery: Delivery; site: string | undefined }) {
+  const { response_code, took_ms, error, next_attempt_at } = delivery;
   const answer = [
     response_code === null ? '' : String(response_code),
     took_ms === null ? '' : `after ${count(took_ms)}\u00a0ms`,
@@ -40,15 +42,23 @@ function Answer({ delivery: { response_code, took_ms, error, next_attempt_at } }
       {error !== null && <span class="delivery-error">{error}</span>}
       {next_attempt_at !== null && (
         <span class="muted">
-          next try at <Time at={next_attempt_at} site={undefined} />
+          next try at <Time at={next_attempt_at} site={site} />
         </span>
       )}
     </>
   );
 }
 
-const kColumns: readonly Column<Delivery>[] = [
-  { head: 'Since', cell: ({ created_at }) => <Time at={created_at} site={undefined} /> },
+/** In whose zone the times of a delivery are: its channel's site, or the only one; UTC where there are several. */
+function useSiteOf(): (delivery: Delivery) => string | undefined {
+  const channels = useResource(address('/api/v1/channels', { query: { limit: 1000 } })).data?.items ?? [];
+  const sites = useSites();
+  const only = sites.length === 1 ? sites[0]?.name : undefined;
+  return ({ channel }) => channels.find(({ id }) => id === channel)?.site ?? only;
+}
+
+const columnsFor = (siteOf: (delivery: Delivery) => string | undefined): readonly Column<Delivery>[] => [
+  { head: 'Since', cell: (delivery) => <Time at={delivery.created_at} site={siteOf(delivery)} /> },
   {
     head: 'State',
     cell: ({ state }) => <StateBadge tone={kTones[state]}>{state}</StateBadge>,
@@ -75,7 +85,7 @@ const kColumns: readonly Column<Delivery>[] = [
     essential: false,
   },
   { head: 'Attempts', cell: ({ attempts }) => attempts, numeric: true, essential: false },
-  { head: 'Answer', cell: (delivery) => <Answer delivery={delivery} />, essential: false },
+  { head: 'Answer', cell: (delivery) => <Answer delivery={delivery} site={siteOf(delivery)} />, essential: false },
   {
     head: 'Again',
     cell: ({ id, state, channel_name }) =>
@@ -108,12 +118,13 @@ export function DeliveryTable({ filters, ...query }: DeliveryTableProps) {
     const timer = setInterval(() => loader.invalidate((key) => key.startsWith('/api/v1/deliveries')), kAskEveryMs);
     return () => clearInterval(timer);
   }, []);
+  const columns = columnsFor(useSiteOf());
   const isShort = filters === undefined;
   return (
     <DataTable
       caption="deliveries"
       page={isShort && page.data ? { ...page, data: { ...page.data, next: null } } : page}
-      columns={isShort ? kColumns.filter(({ head }) => head !== 'To' && head !== 'Attempts') : kColumns}
+      columns={isShort ? columns.filter(({ head }) => head !== 'To' && head !== 'Attempts') : columns}
       rowKey={({ id }) => id}
       filters={filters}
       empty={

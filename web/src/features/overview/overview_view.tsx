@@ -125,6 +125,7 @@ function SitePanel({ site, sensors }: { site: Schema<'Site'>; sensors: readonly 
         <span class="muted">
           {site.profile} · times in {site.time_zone}
           {site.epsg !== null && ` · EPSG:${site.epsg}`}
+          {site.mine_grid !== null && ' · local mine grid'}
         </span>
         <span class="spacer" />
         <span class="muted">{counted(sensors.length, 'sensor')}</span>

@@ -54,7 +54,13 @@ export function footprint({ position_m, orientation_xyzw, size_m }: Schema<'Box'
   });
 }
 
-export function drawOverlays(canvas: CanvasRenderingContext2D, frame: Frame, overlays: readonly Overlay[]): void {
+/** @param overColours the picture's own colours mean something: nothing is filled, and lines stand out from light and dark */
+export function drawOverlays(
+  canvas: CanvasRenderingContext2D,
+  frame: Frame,
+  overlays: readonly Overlay[],
+  overColours = false,
+): void {
   for (const overlay of overlays) {
     const { colour, dash } = kLook[overlay.tone];
     canvas.strokeStyle = canvas.fillStyle = colour;
@@ -69,7 +75,15 @@ export function drawOverlays(canvas: CanvasRenderingContext2D, frame: Frame, ove
     canvas.setLineDash([...dash]);
     canvas.lineWidth = isOutline && overlay.chosen ? 2.5 : 1.5;
     trace(canvas, corners, !isOutline || overlay.closed !== false);
-    if (!isOutline || overlay.closed !== false) {
+    if (overColours) {
+      canvas.setLineDash([]);
+      canvas.strokeStyle = kGround;
+      canvas.lineWidth += 2.5;
+      canvas.stroke();
+      canvas.setLineDash([...dash]);
+      canvas.strokeStyle = colour;
+      canvas.lineWidth -= 2.5;
+    } else if (!isOutline || overlay.closed !== false) {
       canvas.globalAlpha = isOutline && overlay.chosen ? 0.2 : 0.12;
       canvas.fill();
       canvas.globalAlpha = 1;

@@ -1,19 +1,16 @@
 // The canvas of a picture from above. It is drawn when something changed, once a frame at most, and otherwise not at all.
 
 import { type Bounds, fitted, type Frame } from './frame';
-import { drawCrosshair, drawOverlays, drawScale, drawSensors, type Overlay } from './overlays';
-import { paintPoints } from './paint';
-import { type Scene } from './scene';
+import { drawCrosshair, drawScale } from './overlays';
 
-export interface Shown {
-  readonly scene: Scene;
-  readonly overlays: readonly Overlay[];
-  /** Shown first, and again on request; all of the scene when it is not given. */
-  readonly focus_m: Bounds | undefined;
-  readonly cut_m: number;
-  readonly marks: readonly Uint8Array[] | undefined;
-  /** Whether the middle is marked, for the keyboard. */
-  readonly crosshair: boolean;
+/** What a picture shows. Another one is another object. */
+export interface Drawing {
+  /** Shown first, and again on request; nothing while it is not known. */
+  readonly bounds_m: Bounds | undefined;
+  /** Fills the pixels, of which a CSS pixel has `scale` along a side. */
+  paint(pixels: Uint32Array, frame: Frame, scale: number): void;
+  /** Draws lines over them, in CSS pixels. */
+  drawOver(context: CanvasRenderingContext2D, frame: Frame): void;
 }
 
 const kAnywhere: Bounds = { min: [-10, -10], max: [10, 10] };
@@ -21,7 +18,9 @@ const kGround = 0xff17110c; // --scene-ground, #0c1117
 
 export class Picture {
   private current: Frame | undefined;
-  private shown: Shown | undefined;
+  private shown: Drawing | undefined;
+  /** Whether the middle is marked, for the keyboard. */
+  private crosshair = false;
   private image: ImageData | undefined;
   private request = 0;
   /** Whoever looks has moved: what is shown stays where it is when more arrives. */
@@ -39,8 +38,9 @@ export class Picture {
     this.draw();
   }
 
-  show(shown: Shown): void {
+  show(shown: Drawing, crosshair: boolean): void {
     this.shown = shown;
+    this.crosshair = crosshair;
     if (!this.moved) this.current = undefined;
     this.draw();
   }
@@ -64,8 +64,7 @@ export class Picture {
   }
 
   private whole(): Frame {
-    const bounds = this.shown?.focus_m ?? this.shown?.scene.extent_m ?? kAnywhere;
-    return fitted(bounds, this.canvas.clientWidth, this.canvas.clientHeight);
+    return fitted(this.shown?.bounds_m ?? kAnywhere, this.canvas.clientWidth, this.canvas.clientHeight);
   }
 
   private draw(): void {
@@ -89,14 +88,12 @@ export class Picture {
       this.image = context.createImageData(columns, rows);
     const pixels = new Uint32Array(this.image.data.buffer);
     pixels.fill(kGround);
-    const { scene, overlays, cut_m, marks, crosshair } = this.shown;
-    paintPoints(pixels, frame, scale, scene.clouds, { heights_m: scene.heights_m, cut_m, marks });
+    this.shown.paint(pixels, frame, scale);
     context.putImageData(this.image, 0, 0);
     context.setTransform(scale, 0, 0, scale, 0, 0);
-    drawSensors(context, frame, scene.sensors);
-    drawOverlays(context, frame, overlays);
+    this.shown.drawOver(context, frame);
     drawScale(context, frame);
-    if (crosshair) drawCrosshair(context, frame);
+    if (this.crosshair) drawCrosshair(context, frame);
     context.setTransform(1, 0, 0, 1, 0, 0);
   }
 }

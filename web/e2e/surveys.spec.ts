@@ -1,0 +1,183 @@
+import { expect, expectNoSidewaysScrolling, seriousViolations, signIn, test } from './support/fixtures';
+
+const kViews = [
+  '/surveys',
+  '/surveys/1',
+  '/surveys/series?schedule=1',
+  '/surveys/schedules/1',
+  '/surveys/schedules/new',
+];
+
+test('the nights of a site say what moved, how sure that is, and which brought nothing', async ({ page, pit }) => {
+  await page.goto(`${pit.url}/surveys`);
+  const rows = page.getByRole('table', { name: 'nights of pit' }).locator('tbody tr');
+  await expect(rows).toHaveCount(5);
+  await expect(rows.first()).toContainText('Thu 5 Mar');
+  await expect(rows.first()).toContainText('There are no scans in its window.');
+  await expect(rows.nth(1)).toContainText(/[+−][\d,]+\u00a0m³\s*[+−]?[\d,]+ to [+−]?[\d,]+\u00a0m³/);
+  await expect(rows.nth(1).locator('.badge').last()).toHaveText(/yellow|orange|red/);
+  await expect(rows.last()).toContainText('this one is the first');
+
+  // In the morning: the latest result, and that a night since brought none.
+  const latest = page.getByRole('region', { name: 'The latest night' });
+  await expect(latest).toContainText('1 night since brought no result');
+  await expect(latest).toContainText('Net since the first night');
+  await expect(page.getByText('coordinates: EPSG:28350, in metres')).toBeVisible();
+
+  await page.getByLabel('state').selectOption('no_scans');
+  await expect(rows).toHaveCount(2);
+  await expect(page).toHaveURL(/state=no_scans/);
+  await page.getByLabel('state').selectOption('');
+  await page.getByLabel('zone').selectOption('bench');
+  await expect(rows.nth(1)).toContainText('m³');
+  await rows.nth(1).getByRole('link').click();
+  await expect(page.getByRole('heading', { name: 'Survey 2', exact: true })).toBeVisible();
+});
+
+test('a site without surveys says what to do first', async ({ page, daemon }) => {
+  await page.goto(`${daemon.url}/surveys`);
+  await expect(page.getByText('There is no site yet.')).toBeVisible();
+  await daemon.post('/api/v1/sites', { name: 'quarry', profile: 'survey' });
+  await page.reload();
+  await expect(page.getByText('No night was surveyed yet.')).toBeVisible();
+  await page.getByRole('link', { name: 'Make a schedule' }).click();
+  await expect(page.getByRole('heading', { name: 'New schedule' })).toBeVisible();
+  await expect(page.getByText('the whole site is surveyed')).toBeVisible();
+});
+
+test('a survey shows its figures, its map, what it rests on, and its files', async ({ page, pit }) => {
+  await signIn(page, 'anna');
+  await page.goto(`${pit.url}/surveys/1`);
+  const figures = page.getByRole('table', { name: 'Figures of the zones' });
+  for (const name of ['Cut', 'Net of what was not seen', 'Changed area', 'M3C2'])
+    await expect(figures.getByRole('row', { name: new RegExp(`^${name}`) }).first()).toContainText(/\d/);
+  await expect(figures.getByRole('row', { name: /^Cut in tonnes/ })).toContainText(/\d\u00a0t/);
+  await expect(page.getByRole('region', { name: 'Levels and alerts' })).toContainText('Cut, bench');
+  await expect(page.getByRole('table', { name: 'changes of survey 1' }).locator('tbody tr').first()).toContainText(
+    'm³',
+  );
+
+  // By the keyboard: the cell in the middle, then one beside it.
+  const map = page.getByRole('application', { name: /difference of both epochs/ });
+  await map.focus();
+  await page.keyboard.press('ArrowLeft');
+  const readout = page.locator('.top-view-readout');
+  await expect(readout).toContainText(/x -?[\d.]+\sm, y -?[\d.]+\sm; /);
+  const first = await readout.textContent();
+  await page.keyboard.press('ArrowUp');
+  await expect(readout).not.toHaveText(first ?? '');
+  await page.getByRole('button', { name: 'After', exact: true }).click();
+  await expect(page).toHaveURL(/map=after/);
+  await expect(page.getByText(/height .* to /)).toBeVisible();
+
+  await expect(
+    page
+      .getByRole('table', { name: /scans of epoch/ })
+      .first()
+      .locator('tbody tr'),
+  ).toHaveCount(2);
+  await expect(page.getByText(/fits with a residual of/).first()).toBeVisible();
+  for (const name of ['dod.tif', 'after.las', 'map.geojson', 'changes.csv', 'report.html', 'bundle.zip']) {
+    const link = page.locator(`a[href="/api/v1/surveys/1/${name}"][download]`);
+    const answer = await page.request.get(`${pit.url}${await link.getAttribute('href')}`);
+    expect(answer.status(), name).toBe(200);
+    expect((await answer.body()).length, name).toBeGreaterThan(100);
+  }
+
+  await page.getByRole('button', { name: 'Accept this state …' }).click();
+  await page.getByLabel('Note').fill('checked against the total station');
+  await page.getByRole('button', { name: 'Accept it' }).click();
+  await expect(page.getByText('accepted by anna')).toBeVisible();
+
+  // To the next one, and back.
+  await page.keyboard.press('j');
+  await expect(page.getByRole('heading', { name: 'Survey 2', exact: true })).toBeVisible();
+  await page.keyboard.press('k');
+  await expect(page.getByRole('heading', { name: 'Survey 1', exact: true })).toBeVisible();
+});
+
+test('a survey that is not there is said to be not there, and what was there stays when the daemon goes', async ({
+  page,
+  pit,
+  troubles,
+}) => {
+  troubles.expect(/404|ERR_CONNECTION_REFUSED|ERR_INCOMPLETE_CHUNKED_ENCODING|Failed to load resource/);
+  await page.goto(`${pit.url}/surveys/99`);
+  await expect(page.getByRole('alert')).toContainText('99');
+  await page.goto(`${pit.url}/surveys`);
+  const rows = page.getByRole('table', { name: 'nights of pit' }).locator('tbody tr');
+  await expect(rows).toHaveCount(5);
+  await pit.stop();
+  await expect(page.getByText(/reconnecting|not live/)).toBeVisible();
+  await expect(rows).toHaveCount(5);
+});
+
+test('a figure through time has its interval, and says which nights are missing', async ({ page, pit }) => {
+  await page.goto(`${pit.url}/surveys/series?schedule=1&figure=cut_m3`);
+  await expect(page.getByRole('img', { name: /^Cut: from [\d,.]+ to [\d,.]+ m³/ }).first()).toBeVisible();
+  await expect(page.getByText('2 gaps:')).toBeVisible();
+  await expect(page.getByText(/This figure has no levels/)).toHaveCount(0);
+  await page.getByLabel('figure').selectOption('seen_share');
+  await expect(page).toHaveURL(/figure=seen_share/);
+  await expect(page.getByRole('img', { name: /^Seen in both epochs: .* %/ })).toBeVisible();
+  await expect(page.getByText('This figure has no levels here: it raises no alert.')).toBeVisible();
+});
+
+test('a schedule is made, with what is wrong at its field, paused, run and deleted', async ({
+  page,
+  pit,
+  troubles,
+}) => {
+  troubles.expect(/422/);
+  await page.goto(`${pit.url}/surveys/schedules/new`);
+  await page.getByLabel('Name').fill('weekly');
+  await page.getByLabel('Time (cron)').fill('0 6 * * 1');
+  await expect(page.getByText('every Monday at 06:00 (Australia/Perth)')).toBeVisible();
+  await page.getByLabel('Time (cron)').fill('0 25 * * 1');
+  await page
+    .getByRole('group', { name: /^Zones/ })
+    .getByLabel('bench')
+    .check();
+  await page.getByRole('button', { name: 'Add levels' }).click();
+  await page.getByRole('button', { name: 'Save' }).click();
+  await expect(page.getByText('needs at least one level')).toBeVisible();
+  await page.getByLabel('Yellow from').fill('100');
+  await page.getByRole('button', { name: 'Save' }).click();
+  const cron = page.getByLabel('Time (cron)');
+  await expect(cron).toHaveAttribute('aria-invalid', 'true');
+  await cron.fill('0 6 * * 1');
+  await page.getByLabel('What', { exact: true }).selectOption('days_ago');
+  await page.getByLabel('How many').fill('7');
+  await page.getByRole('button', { name: 'Save' }).click();
+  await expect(page.getByRole('heading', { name: 'weekly' })).toBeVisible();
+  const made = (await pit.get<{ items: { name: string; survey: { reference: object } }[] }>('/api/v1/schedules')).items;
+  expect(made.find(({ name }) => name === 'weekly')?.survey.reference).toMatchObject({ policy: 'days_ago', days: 7 });
+
+  await page.getByRole('button', { name: 'Pause' }).click();
+  await expect(page.getByText('paused', { exact: true })).toBeVisible();
+  await page.getByRole('button', { name: 'Run now' }).click();
+  await expect(page.getByRole('region', { name: 'Latest runs' })).toContainText('no scans');
+  await page.getByRole('button', { name: 'Delete …' }).click();
+  await page.getByRole('button', { name: 'Delete it' }).click();
+  await expect(page.getByRole('heading', { name: 'Surveys' })).toBeVisible();
+  await expect(page.getByRole('link', { name: 'weekly' })).toHaveCount(0);
+});
+
+for (const colorScheme of ['light', 'dark'] as const) {
+  for (const viewport of [
+    { width: 1280, height: 800 },
+    { width: 390, height: 844 },
+  ]) {
+    test(`views of surveys are usable by all, ${colorScheme}, ${viewport.width} px wide`, async ({ page, pit }) => {
+      await page.setViewportSize(viewport);
+      await page.emulateMedia({ colorScheme, reducedMotion: 'reduce' });
+      for (const view of kViews) {
+        await page.goto(pit.url + view);
+        await expect(page.getByRole('heading', { level: 1 })).toBeVisible();
+        await expect(page.locator('.spinner')).toHaveCount(0);
+        expect(await seriousViolations(page), view).toEqual([]);
+        await expectNoSidewaysScrolling(page);
+      }
+    });
+  }
+}
