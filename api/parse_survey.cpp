@@ -113,6 +113,7 @@ SurveyDefinition parse_definition(JsonObject& body, FieldErrors& errors) {
   definition.cell_m = survey->real("cell_m").value_or(definition.cell_m);
   definition.core_spacing_m = survey->real("core_spacing_m").value_or(definition.core_spacing_m);
   definition.density_t_per_m3 = survey->real("density_t_per_m3");
+  definition.greatest_slope_deg = survey->real("greatest_slope_deg");
   definition.reference = parse_reference(*survey);
   definition.tolerance = parse_tolerance(*survey);
   parse_all_thresholds(*survey, errors, definition);

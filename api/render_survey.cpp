@@ -113,6 +113,7 @@ Json render(const SurveyDefinition& definition) {
           {"cell_m", definition.cell_m},
           {"core_spacing_m", definition.core_spacing_m},
           {"density_t_per_m3", json_or_null(definition.density_t_per_m3)},
+          {"greatest_slope_deg", json_or_null(definition.greatest_slope_deg)},
           {"reference", render_reference(definition.reference)},
           {"tolerance", render_tolerance(definition.tolerance)},
           {"thresholds", std::move(thresholds)}};

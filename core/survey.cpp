@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "core/survey_m3c2.hpp"
@@ -69,14 +70,20 @@ std::optional<ZoneMasses> masses_of(const ZoneVolumes& volumes, const std::optio
                     mass_of(volumes.net, *density_t_per_m3)};
 }
 
+GroundSteepness steepness_of(const SurveyDefinition& definition) {
+  if (!definition.greatest_slope_deg) return {};
+  return {.greatest_slope = std::tan(*definition.greatest_slope_deg * std::numbers::pi / 180.0)};
+}
+
 void measure_zones(const SurveyInput& input, std::span<const SurveyZone> zones, SurveyResult& result) {
   const std::vector<M3c2Figures> m3c2 = m3c2_of_zones(input, zones, result.registration_m);
   const std::optional<double>& density = input.definition.density_t_per_m3;
+  const GroundSteepness steepness = steepness_of(input.definition);
   const ChangedGround ground = changed_ground(result.before_model, result.after_model);
   for (std::size_t z = 0; z < zones.size(); ++z) {
     ZoneFigures& figures = result.zones.emplace_back();
     figures.zone = zones[z];
-    figures.volumes = volumes_between(result.before_model, result.after_model, ground, zones[z].prism);
+    figures.volumes = volumes_between(result.before_model, result.after_model, ground, zones[z].prism, steepness);
     figures.m3c2 = m3c2[z];
     figures.masses = masses_of(figures.volumes, density);
   }

@@ -74,6 +74,9 @@ void check_definition(const SurveyDefinition& definition) {
   if (definition.density_t_per_m3) {
     check.within(*definition.density_t_per_m3, 0.01, 25.0, "density_t_per_m3", "0.01 to 25");
   }
+  if (definition.greatest_slope_deg) {
+    check.within(*definition.greatest_slope_deg, 1.0, 89.0, "greatest_slope_deg", "1 to 89");
+  }
   const SurveyReference& reference = definition.reference;
   check.require((reference.policy == ReferencePolicy::fixed) == reference.epoch.has_value(), "reference.epoch",
                 "must be given with the policy \"fixed\", and only then");

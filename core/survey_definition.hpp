@@ -75,6 +75,8 @@ struct SurveyDefinition {
   SurveyReference reference = {};
   RegistrationTolerance tolerance = {};
   std::optional<double> density_t_per_m3 = {};  ///< of the ground in place; not given: no masses
+  /// No ground of the site is steeper: narrows the bounds of ground that was not seen. Not given: nothing is assumed.
+  std::optional<double> greatest_slope_deg = {};
   std::vector<FigureThresholds> thresholds = {};
 };
 inline constexpr std::size_t kMostCorePoints = 50000;

@@ -63,10 +63,13 @@ void add_step(Transaction& transaction, const AlertRecord& alert, const AlertHis
 }
 
 std::string where(const AlertFilter& filter) {
-  if (filter.site && filter.state) return "INDEXED BY alerts_by_site_and_state WHERE site = ? AND state = ? AND ";
-  if (filter.site) return "INDEXED BY alerts_by_site WHERE site = ? AND ";
-  if (filter.state) return "INDEXED BY alerts_by_state WHERE state = ? AND ";
-  return "WHERE ";
+  const std::string severity = filter.severity ? "severity = ? AND " : "";
+  if (filter.site && filter.state) {
+    return "INDEXED BY alerts_by_site_and_state WHERE site = ? AND state = ? AND " + severity;
+  }
+  if (filter.site) return "INDEXED BY alerts_by_site WHERE site = ? AND " + severity;
+  if (filter.state) return "INDEXED BY alerts_by_state WHERE state = ? AND " + severity;
+  return "WHERE " + severity;
 }
 
 }  // namespace
@@ -148,6 +151,7 @@ Page<AlertRecord> list_alerts(const Snapshot& snapshot, const AlertFilter& filte
   Statement rows(database_of(snapshot), kSelect + where(filter) + "id < ? ORDER BY id DESC LIMIT ?");
   if (filter.site) rows.bind(*filter.site);
   if (filter.state) rows.bind(to_string(*filter.state));
+  if (filter.severity) rows.bind(to_string(*filter.severity));
   rows.bind(before, rows_to_read(page));
   std::vector<AlertRecord> alerts;
   while (rows.next()) alerts.push_back(read_alert(rows));

@@ -73,6 +73,7 @@ std::vector<AlertHistoryStep> alert_history(const Snapshot& snapshot, AlertId id
 struct AlertFilter {
   std::optional<SiteId> site;
   std::optional<AlertState> state;
+  std::optional<Severity> severity = {};
 };
 /// Newest first.
 Page<AlertRecord> list_alerts(const Snapshot& snapshot, const AlertFilter& filter, const PageRequest& page);

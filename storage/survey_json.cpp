@@ -119,6 +119,7 @@ Json json_of(const SurveyDefinition& d) {
       {"reference_days", d.reference.days},
       {"tolerance", {d.tolerance.residual_m, d.tolerance.uncertainty.position_m, d.tolerance.uncertainty.angle_rad}},
       {"density_t_per_m3", or_null(d.density_t_per_m3)},
+      {"greatest_slope_deg", or_null(d.greatest_slope_deg)},
       {"thresholds", thresholds}};
 }
 SurveyDefinition definition_of(const Json& json) {
@@ -134,6 +135,8 @@ SurveyDefinition definition_of(const Json& json) {
   const Json& tolerance = json.at("tolerance");
   d.tolerance = {tolerance.at(0).get<double>(), {tolerance.at(1).get<double>(), tolerance.at(2).get<double>()}};
   d.density_t_per_m3 = optional_of<double>(json.at("density_t_per_m3"));
+  // Definitions that were stored before there was such a field do not have it.
+  if (json.contains("greatest_slope_deg")) d.greatest_slope_deg = optional_of<double>(json.at("greatest_slope_deg"));
   for (const Json& given : json.at("thresholds")) d.thresholds.push_back(thresholds_of(given));
   return d;
 }

@@ -113,6 +113,7 @@ HttpAnswer list_alerts(Call& call) {
   const auto site_name = call.query.text("site");
   AlertFilter filter;
   filter.state = call.query.parsed("state", parse_alert_state);
+  filter.severity = call.query.parsed("severity", parse_severity);
   const PageRequest page = call.query.page();
   call.query.finish();
   return json_answer(call.services.store.read([&](const Snapshot& snapshot) {

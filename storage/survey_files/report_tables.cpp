@@ -182,6 +182,9 @@ std::string basis_tables(const SurveyDocument& document) {
   const OutputFrame& frame = document.frame;
   std::string body = setting("Program", "raywatch " + escaped(survey.program_version));
   body += setting("Cell of the elevation models", number_text(survey.definition.cell_m, 2) + "\u00a0m");
+  if (const std::optional<double> steepest = survey.definition.greatest_slope_deg) {
+    body += setting("Steepest ground, as stated", number_text(*steepest, 0) + "°");
+  }
   body += setting("Grouping of the comparison", std::string(to_string(survey.parameters.grouping)));
   body += setting("Registration error in M3C2", number_text(kMillimetres * survey.registration_m, 1) + "\u00a0mm");
   body += setting("Points that the other epoch can judge",

@@ -202,6 +202,9 @@ TEST_CASE("what is accepted is normal from then on, and its theft is told") {
   yard.scan();
   const json stolen = yard.items("/api/v1/alerts?state=open");
   REQUIRE_EQ(stolen.size(), 1);
+  const std::string severity = stolen[0]["severity"], other = severity == "info" ? "critical" : "info";
+  CHECK_EQ(yard.items("/api/v1/alerts?state=open&severity=" + severity).size(), 1);
+  CHECK_EQ(yard.items("/api/v1/alerts?site=yard&severity=" + other).size(), 0);
   CHECK_EQ(yard.get("/api/v1/tracks/" + stolen[0]["track"].dump()).json()["kind"], "removed");
 }
 

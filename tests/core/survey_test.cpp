@@ -105,12 +105,12 @@ SurveyZone zone_over(const Eigen::AlignedBox2d& area_m, std::int64_t id) {
   return {.zone = ZoneId{id}, .name = "bench", .prism = prism_over(area_m)};
 }
 
-/// What is true of the cells that were seen in both epochs.
-double true_net_m3(const SurveyResult& survey) {
+/// What is true of the cells that were seen in both epochs, or of those that were not.
+double true_net_m3(const SurveyResult& survey, bool seen = true) {
   const Eigen::Vector2d half_m = Eigen::Vector2d::Constant(0.5 * survey.before_model.layout.cell_m);
   double net_m3 = 0.0;
   for (std::size_t cell = 0; cell < survey.difference.size(); ++cell) {
-    if (!survey.difference[cell].seen()) continue;
+    if (survey.difference[cell].seen() != seen) continue;
     const Eigen::Vector2d center_m = survey.before_model.layout.center_m(cell);
     const Eigen::AlignedBox2d cell_m(center_m - half_m, center_m + half_m);
     net_m3 += cell_m.volume() *
@@ -122,6 +122,19 @@ double true_net_m3(const SurveyResult& survey) {
 const SurveyResult& survey_of_bench() {
   static const SurveyResult result = survey_between(input_of({zone_over(kArea_m, 7)}));
   return result;
+}
+
+TEST_CASE("what is stated of the steepness of the ground narrows the bounds of what was not seen, around the truth") {
+  SurveyInput input = input_of({zone_over(kArea_m, 7)});
+  input.definition.greatest_slope_deg = 80.0;
+  const VolumeBounds stated = survey_between(input).zones.front().volumes.unseen;
+  const VolumeBounds nothing_stated = survey_of_bench().zones.front().volumes.unseen;
+  CHECK(stated.low_m3 >= nothing_stated.low_m3);
+  CHECK(stated.high_m3 <= nothing_stated.high_m3);
+  CHECK(stated.high_m3 - stated.low_m3 < 0.5 * (nothing_stated.high_m3 - nothing_stated.low_m3));
+  const double truth_m3 = true_net_m3(survey_of_bench(), false);
+  CHECK(stated.low_m3 <= truth_m3);
+  CHECK(stated.high_m3 >= truth_m3);
 }
 
 TEST_CASE("a survey of two nights of a pit holds the true volume in its interval, and has its changes") {
@@ -205,8 +218,10 @@ TEST_CASE("a figure that was not measured has no value, and one without an inter
 }
 
 TEST_CASE("a definition that is out of range says every field") {
-  SurveyDefinition definition{
-      .cell_m = 0.0, .reference = {.policy = ReferencePolicy::days_ago}, .density_t_per_m3 = -1.0};
+  SurveyDefinition definition{.cell_m = 0.0,
+                              .reference = {.policy = ReferencePolicy::days_ago},
+                              .density_t_per_m3 = -1.0,
+                              .greatest_slope_deg = 90.0};
   definition.thresholds.push_back({.thresholds = {.yellow = 2.0, .orange = 1.0}});
   try {
     check_definition(definition);
@@ -214,7 +229,8 @@ TEST_CASE("a definition that is out of range says every field") {
   } catch (const InvalidInput& error) {
     std::vector<std::string> fields;
     for (const FieldError& wrong : error.fields()) fields.push_back(wrong.field);
-    CHECK(fields == std::vector<std::string>{"cell_m", "density_t_per_m3", "reference.days", "thresholds.0.orange"});
+    CHECK(fields == std::vector<std::string>{"cell_m", "density_t_per_m3", "greatest_slope_deg", "reference.days",
+                                             "thresholds.0.orange"});
   }
   check_definition({});
 }

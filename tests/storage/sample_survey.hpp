@@ -9,6 +9,7 @@ inline SurveyResult sample_survey(int number, std::optional<ZoneId> zone = {}) {
   SurveyResult survey;
   survey.definition.zones = {ZoneId{3}};
   survey.definition.density_t_per_m3 = 2.5;
+  survey.definition.greatest_slope_deg = 70.0;
   survey.definition.reference = {.policy = ReferencePolicy::days_ago, .epoch = {}, .days = 7};
   survey.definition.thresholds = {{.figure = SurveyFigure::cut_m3, .zone = zone, .thresholds = {.yellow = 1.5}}};
   survey.program_version = "1.2.3";

@@ -181,9 +181,9 @@ export function useResources<T>(from: readonly Address<T>[]): readonly Resource<
   return from.map((each) => (known[each] ?? kNothing) as Resource<T>);
 }
 
-/** The keys that a view understands while it is there. */
+/** The keys that a view understands while it is there: from the moment it can be seen, not from the next frame on. */
 export function useKeys(bindings: readonly KeyBinding[]): void {
   const current = useRef(bindings);
   current.current = bindings;
-  useEffect(() => addKeys(() => current.current), []);
+  useLayoutEffect(() => addKeys(() => current.current), []);
 }

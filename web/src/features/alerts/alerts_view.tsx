@@ -16,12 +16,9 @@ import { type Act, useActions } from './use_actions';
 
 export function AlertsView({ id }: { id?: string }) {
   const filter = useFilter();
-  const page = useResource(
-    address('/api/v1/alerts', { query: { state: filter.state, site: filter.site, limit: 200, cursor: filter.cursor } }),
-  );
-  const alerts = bySeverity(
-    (page.data?.items ?? []).filter((alert) => !filter.severity || alert.severity === filter.severity),
-  );
+  const { state, site, severity, cursor } = filter;
+  const page = useResource(address('/api/v1/alerts', { query: { state, site, severity, limit: 200, cursor } }));
+  const alerts = bySeverity(page.data?.items ?? []);
   const shown = id === undefined ? undefined : Number(id);
   const { act, dialog } = useActions();
   useTriageKeys(alerts, shown, act);

@@ -131,6 +131,7 @@ function Settings({ survey: { ground, made_at, site } }: { survey: Survey }) {
     ['Core points of M3C2', `${metres(survey.core_spacing_m)} apart`],
     ['Registration error', `${metres(ground.registration_m, 3)} (M3C2)`],
     ['Density in place', survey.density_t_per_m3 === null ? 'not given' : `${survey.density_t_per_m3}\u00a0t/m³`],
+    ['Steepest ground', survey.greatest_slope_deg === null ? 'not assumed' : degrees(survey.greatest_slope_deg, 0)],
     [
       'Refused beyond',
       `${metres(survey.tolerance.residual_m, 3)} residual, ${metres(survey.tolerance.position_m, 3)}, ${degrees(survey.tolerance.angle_deg, 3)}`,

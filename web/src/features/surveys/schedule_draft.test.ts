@@ -20,6 +20,7 @@ const schedule: Schema<'SurveySchedule'> = {
     cell_m: 2,
     core_spacing_m: 1,
     density_t_per_m3: 2.65,
+    greatest_slope_deg: 75,
     reference: { policy: 'previous', epoch: null, days: null },
     tolerance: { residual_m: 0.05, position_m: 0.05, angle_deg: 0.114591559 },
     thresholds: [

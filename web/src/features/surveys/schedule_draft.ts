@@ -34,6 +34,7 @@ export interface ScheduleDraft {
   readonly cell_m: string;
   readonly core_spacing_m: string;
   readonly density: string;
+  readonly greatest_slope_deg: string;
   readonly policy: Policy;
   readonly epoch: string;
   readonly days: string;
@@ -68,6 +69,7 @@ export const newDraft: ScheduleDraft = {
   cell_m: '1',
   core_spacing_m: '1',
   density: '',
+  greatest_slope_deg: '',
   policy: 'previous',
   epoch: '',
   days: '7',
@@ -93,6 +95,7 @@ export const draftOf = ({ survey, ...schedule }: Schedule): ScheduleDraft => ({
   cell_m: text(survey.cell_m),
   core_spacing_m: text(survey.core_spacing_m),
   density: text(survey.density_t_per_m3),
+  greatest_slope_deg: text(survey.greatest_slope_deg),
   policy: survey.reference.policy,
   epoch: text(survey.reference.epoch),
   days: text(survey.reference.days ?? 7),
@@ -136,6 +139,7 @@ export function bodyOf(
       cell_m: Number(draft.cell_m),
       core_spacing_m: Number(draft.core_spacing_m),
       density_t_per_m3: numberOrNull(draft.density),
+      greatest_slope_deg: numberOrNull(draft.greatest_slope_deg),
       reference: {
         policy,
         ...(policy === 'fixed' ? { epoch: numberOrNull(draft.epoch) } : {}),
@@ -195,6 +199,7 @@ export function differencesOf(theirs: ScheduleDraft, mine: ScheduleDraft): Diffe
     row('Zones', ({ zones }) => zones.join(', ')),
     row('Required sensors', ({ required_sensors }) => required_sensors.join(', ')),
     row('Cells, core points, density', (draft) => `${draft.cell_m} m, ${draft.core_spacing_m} m, ${draft.density}`),
+    row('Steepest ground', ({ greatest_slope_deg }) => (greatest_slope_deg === '' ? '' : `${greatest_slope_deg}°`)),
     row('Tolerance', (draft) => `${draft.residual_mm} mm, ${draft.position_mm} mm, ${draft.angle_deg}°`),
     row('Levels', ({ thresholds }) => thresholds.map(thresholdWords).join('; ')),
   ];

@@ -37,6 +37,7 @@ const kShown = [
   'survey.cell_m',
   'survey.core_spacing_m',
   'survey.density_t_per_m3',
+  'survey.greatest_slope_deg',
   'survey.reference.epoch',
   'survey.reference.days',
   'survey.tolerance.residual_m',
@@ -287,6 +288,16 @@ function Exactness({ draft, set, error }: PartProps) {
           value={draft.density}
           error={error('survey.density_t_per_m3')}
           onValue={(density) => set({ density })}
+        />
+        <NumberField
+          label="Steepest ground"
+          unit="°"
+          min={1}
+          max={89}
+          placeholder="not assumed"
+          value={draft.greatest_slope_deg}
+          error={error('survey.greatest_slope_deg')}
+          onValue={(greatest_slope_deg) => set({ greatest_slope_deg })}
         />
       </div>
       <p class="muted">A night whose scans fit worse than this is refused:</p>
