@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sstream>
+
 #include "tests/evaluate/gallery.hpp"
 
 namespace raywatch::evaluation {
@@ -8,6 +10,8 @@ namespace raywatch::evaluation {
 struct ErrorStudy {
   CauseTable causes;
   Gallery gallery;
+  /// One line for each real change and each false one, as CSV with a head.
+  std::ostringstream objects;
 
   void add(const IndexedPlace& place, const CompareParameters& parameters);
 };

@@ -66,42 +66,46 @@ std::vector<StateId> shown_by(const Content& content, const RealChanges& real) {
   return shown;
 }
 
-void judge_change(const Content& content, ObjectCounts& counts) {
+/// Of one direction: of what came, or of what went.
+struct Direction {
+  bool removed = false;
+  RealChanges real;
+};
+
+void judge_change(const Content& content, ObjectFate fate, ObjectFates& fates) {
   std::size_t changed = 0;
   for (const auto& [state, points] : content.changed) changed += points;
   if (content.counted == 0) {
-    ++counts.undecided;
+    fates.undecided.push_back(std::move(fate));
   } else if (static_cast<double>(changed) < kTrueShare * static_cast<double>(content.counted)) {
-    ++counts.false_;
+    fates.false_changes.push_back(std::move(fate));
   }
 }
 
-/// Scores the changes of one direction: those that came, or those that went.
-ObjectCounts count_direction(const std::vector<const Content*>& contents, const RealChanges& real) {
-  struct Shown {
-    std::size_t changes = 0;
-    bool with_others = false;
-  };
-  ObjectCounts counts;
-  std::map<StateId, Shown> shown;
-  for (const Content* content : contents) {
-    judge_change(*content, counts);
-    const std::vector<StateId> objects = shown_by(*content, real);
+void judge_direction(const Direction& direction, const Comparison& comparison, const std::vector<Content>& contents,
+                     ObjectFates& fates) {
+  std::map<StateId, ObjectFate> shown;
+  for (std::size_t c = 0; c < contents.size(); ++c) {
+    if ((comparison.changes[c].kind == ChangeKind::removed) != direction.removed) continue;
+    judge_change(contents[c], {.removed = direction.removed, .returns = comparison.changes[c].points, .shown_by = {c}},
+                 fates);
+    const std::vector<StateId> objects = shown_by(contents[c], direction.real);
     for (const StateId object : objects) {
-      ++shown[object].changes;
-      shown[object].with_others |= objects.size() > 1;
+      ObjectFate& fate = shown[object];
+      ++fate.changes;
+      fate.with_others |= objects.size() > 1;
+      fate.shown_by.push_back(c);
     }
   }
-  for (const auto& [state, returns] : real) {
+  for (const auto& [state, returns] : direction.real) {
     if (returns.testable < kLeastReturns) continue;
-    const Shown& found = shown[state];
-    ++counts.real;
-    counts.found += found.changes > 0;
-    counts.split += found.changes > 1;
-    counts.merged += found.with_others;
-    counts.once += found.changes == 1 && !found.with_others;
+    ObjectFate& fate = shown[state];
+    fate.removed = direction.removed;
+    fate.state = state;
+    fate.returns = returns.all;
+    fate.testable = returns.testable;
+    fates.objects.push_back(fate);
   }
-  return counts;
 }
 
 }  // namespace
@@ -129,18 +133,33 @@ ObjectScore& ObjectScore::operator+=(const ObjectScore& other) {
   return *this;
 }
 
-ObjectScore count_objects(const Comparison& comparison, const CaseLabels& labels) {
-  RealChanges came, went;
-  add_real(*labels.scan, labels.truth.scan, labels.testable_scan, came);
+ObjectFates fates_of(const Comparison& comparison, const CaseLabels& labels) {
+  Direction came, went{.removed = true};
+  add_real(*labels.scan, labels.truth.scan, labels.testable_scan, came.real);
   for (std::size_t p = 0; p < labels.priors.size(); ++p) {
-    add_real(*labels.priors[p], labels.truth.priors[p], labels.testable_priors[p], went);
+    add_real(*labels.priors[p], labels.truth.priors[p], labels.testable_priors[p], went.real);
   }
   const std::vector<Content> contents = contents_of(comparison, labels);
-  std::vector<const Content*> added, removed;
-  for (std::size_t c = 0; c < contents.size(); ++c) {
-    (comparison.changes[c].kind == ChangeKind::removed ? removed : added).push_back(&contents[c]);
+  ObjectFates fates;
+  for (const Direction* direction : {&came, &went}) judge_direction(*direction, comparison, contents, fates);
+  return fates;
+}
+
+ObjectScore count_objects(const Comparison& comparison, const CaseLabels& labels) {
+  const ObjectFates fates = fates_of(comparison, labels);
+  ObjectScore score{.comparisons = 1};
+  const auto of = [&](const ObjectFate& fate) -> ObjectCounts& { return fate.removed ? score.removed : score.added; };
+  for (const ObjectFate& fate : fates.objects) {
+    ObjectCounts& counts = of(fate);
+    ++counts.real;
+    counts.found += fate.changes > 0;
+    counts.split += fate.changes > 1;
+    counts.merged += fate.with_others;
+    counts.once += fate.changes == 1 && !fate.with_others;
   }
-  return {count_direction(added, came), count_direction(removed, went), 1};
+  for (const ObjectFate& fate : fates.false_changes) ++of(fate).false_;
+  for (const ObjectFate& fate : fates.undecided) ++of(fate).undecided;
+  return score;
 }
 
 }  // namespace raywatch::evaluation

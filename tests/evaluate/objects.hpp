@@ -46,8 +46,28 @@ struct CaseLabels {
   CaseTruth truth;
   std::vector<std::uint8_t> testable_scan;                 ///< by a prior
   std::vector<std::vector<std::uint8_t>> testable_priors;  ///< by the scan
+  CaseTruth in_sight;  ///< the truth in which changed points are ignored that cannot be tested
 };
 
+/// What became of one real change that can be tested, or of one change that is false.
+struct ObjectFate {
+  bool removed = false;               ///< else added
+  StateId state = 0;                  ///< of the object; 0: a change that is false or undecided
+  std::size_t returns = 0;            ///< of the object, in the scan or in all priors together; of a change: its points
+  std::size_t testable = 0;           ///< of these: in the scan, or in the prior that has the most
+  std::size_t changes = 0;            ///< that show the object
+  bool with_others = false;           ///< one of those shows another object, too
+  std::vector<std::size_t> shown_by;  ///< numbers of these changes, or of the false one
+};
+
+struct ObjectFates {
+  std::vector<ObjectFate> objects, false_changes, undecided;
+};
+
+/// What became of every object that came or went and has at least `kLeastReturns` that can be tested.
+ObjectFates fates_of(const Comparison& comparison, const CaseLabels& labels);
+
+/// The same in numbers.
 ObjectScore count_objects(const Comparison& comparison, const CaseLabels& labels);
 
 }  // namespace raywatch::evaluation

@@ -38,6 +38,7 @@ struct Arguments {
   std::string csv;
   std::string plots;
   std::string pictures;
+  std::string objects;
   int threads = 0;
 };
 
@@ -70,6 +71,8 @@ void declare(CLI::App& app, Arguments& arguments) {
                  "Write plots of the grid into this folder: data, gnuplot scripts, and SVG when gnuplot is there");
   app.add_option("--pictures", arguments.pictures,
                  "Write a picture of each kind of error that consensus makes into this folder");
+  app.add_option("--objects", arguments.objects,
+                 "Write what consensus made of every real change, and every false one, to this CSV file");
   app.add_option("--threads", arguments.threads, "Threads; 0: as many as there are cores")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
@@ -141,6 +144,14 @@ std::string title_of(const Arguments& arguments) {
   return arguments.family + (arguments.hard ? " hard" : "");
 }
 
+template <class Write>
+void write_file(const std::string& path, Write write) {
+  std::ofstream out(path);
+  write(out);
+  out.close();
+  if (!out) throw StorageError("cannot write " + path);
+}
+
 void run(const Arguments& arguments) {
   if (arguments.family.empty() == arguments.folders.empty()) {
     throw InvalidInput("give either folders of labelled scans or --family");
@@ -164,11 +175,11 @@ void run(const Arguments& arguments) {
   errors.causes.write_markdown(std::cout);
   if (!arguments.plots.empty()) plot(evaluation, arguments.plots);
   if (!arguments.pictures.empty()) errors.gallery.write(arguments.pictures);
+  if (!arguments.objects.empty()) {
+    write_file(arguments.objects, [&](std::ostream& out) { out << errors.objects.view(); });
+  }
   if (!arguments.csv.empty()) {
-    std::ofstream out(arguments.csv);
-    write_csv(out, title_of(arguments), rows);
-    out.close();
-    if (!out) throw StorageError("cannot write " + arguments.csv);
+    write_file(arguments.csv, [&](std::ostream& out) { write_csv(out, title_of(arguments), rows); });
   }
 }
 

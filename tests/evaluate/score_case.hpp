@@ -17,9 +17,11 @@ struct Clustering {
 };
 
 struct CaseScore {
-  Counts single;  ///< of points before clustering
+  Counts single;           ///< of points before clustering
+  Counts single_in_sight;  ///< the same without changed points that no method could find
   struct Clustered {
     Counts points;
+    Counts in_sight;
     ObjectScore objects;
   };
   std::vector<Clustered> clustered;  ///< one for each clustering

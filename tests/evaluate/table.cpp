@@ -36,6 +36,10 @@ const Counts& points_of(const Tally& tally, const Choice& choice) {
   return choice.clustering ? tally.score.clustered[*choice.clustering].points : tally.score.single;
 }
 
+const Counts& in_sight_of(const Tally& tally, const Choice& choice) {
+  return choice.clustering ? tally.score.clustered[*choice.clustering].in_sight : tally.score.single_in_sight;
+}
+
 /// The thresholds of the grid that have the highest f-score over the data; the first of equals.
 std::optional<Choice> best_choice(const Evaluation& evaluation, const Data& data, bool clusters) {
   std::optional<Choice> best;
@@ -67,6 +71,7 @@ TableRow make_row(const Evaluation& evaluation, const Data& data, const char* me
     row.objects = tally.score.clustered[*choice.clustering].objects;
   }
   row.points = points_of(tally, choice);
+  row.in_sight = in_sight_of(tally, choice);
   row.cases = tally.cases;
   row.detect_ms = tally.detect_ms / static_cast<double>(tally.cases);
   row.points_per_s = static_cast<double>(tally.asked) / (1e-3 * tally.detect_ms);
@@ -139,9 +144,9 @@ std::vector<ObjectRow> object_rows(const Evaluation& evaluation) {
 }
 
 void write_markdown(std::ostream& out, const std::vector<TableRow>& rows) {
-  const std::vector<std::string> names{"data", "clusters", "method",    "precision", "recall",
-                                       "f",    "f added",  "f removed", "T_a",       "T_r, m",
-                                       "d, m", "m",        "compared",  "ms",        "million points/s"};
+  const std::vector<std::string> names{"data",      "clusters",        "method", "precision", "recall", "f", "f added",
+                                       "f removed", "f in sight",      "T_a",    "T_r, m",    "d, m",   "m", "compared",
+                                       "ms",        "million points/s"};
   write_head(out, names, 3);
   for (const TableRow& row : rows) {
     const PointCounts both = row.points.both();
@@ -153,6 +158,7 @@ void write_markdown(std::ostream& out, const std::vector<TableRow>& rows) {
                                          text("%.3f", both.f_score()),
                                          text("%.3f", row.points.added.f_score()),
                                          text("%.3f", row.points.removed.f_score()),
+                                         text("%.3f", row.in_sight.both().f_score()),
                                          angle_text(row),
                                          text("%g", row.range_m),
                                          row.clusters ? text("%g", row.clustering.distance_m) : "",
@@ -212,6 +218,7 @@ void write_csv(std::ostream& out, const std::string& name, const std::vector<Tab
       out << ',' << direction << '_' << column;
     }
   }
+  out << ",in_sight_f";
   for (const char* column : {"real", "found", "once", "split", "merged", "false", "undecided"})
     out << ",objects_" << column;
   out << '\n';
@@ -223,6 +230,7 @@ void write_csv(std::ostream& out, const std::string& name, const std::vector<Tab
     write_counts(out, row.points.both());
     write_counts(out, row.points.added);
     write_counts(out, row.points.removed);
+    out << ',' << text("%.6f", row.in_sight.both().f_score());
     const ObjectCounts objects = row.objects.both();
     for (const std::size_t count : {objects.real, objects.found, objects.once, objects.split, objects.merged,
                                     objects.false_, objects.undecided}) {

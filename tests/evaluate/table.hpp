@@ -18,6 +18,7 @@ struct TableRow {
   double range_m = 0.0;            ///< T_r
   Clustering clustering;
   Counts points;
+  Counts in_sight;      ///< without the changed points that no scan could see
   ObjectScore objects;  ///< only with clusters
   std::size_t cases = 0;
   double detect_ms = 0.0;     ///< of one comparison
