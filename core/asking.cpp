@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "core/assumed_sensor.hpp"
 #include "core/evidence.hpp"
 #include "core/footprint.hpp"
 #include "core/index_kernels.hpp"
@@ -71,6 +72,7 @@ void Asking::look_closely(const ScanView& asked, const ScanView& view, std::span
   const Pose pose = asked_from_view(asked, view);
   weigh(asked.index, points, pose, surface_thresholds(asked), tolerance_between(asked, view, parameters_), chosen);
   ask_footprints(asked, points, pose, parameters_.range_m, chosen);
+  withhold_at_borders(asked, points, pose, noise_of(view), chosen);
   for (std::size_t k = 0; k < places.size(); ++k) answers[places[k]] = chosen[k];
 }
 

@@ -101,6 +101,9 @@ class Detector {
   void grow_over_scan(Detection& detection) const {
     if (!asking_.grows()) return;
     const std::vector<Candidate> candidates = candidates_of_scan(detection);
+    const std::vector<ClassedPoint> seeds = find_seeds(scan_, candidates, priors_, parameters_);
+    for (const Candidate& candidate : candidates) detection.classes[candidate.index] = PointClass::unchanged;
+    if (seeds.empty()) return;
     const auto is_open = [&](std::span<const std::uint32_t> places) {
       for (std::size_t p = 0; p < priors_.size(); ++p) {
         asking_.look_closely(priors_[p], scan_, places, detection.answers[p]);
@@ -112,15 +115,10 @@ class Detector {
       }
       return open;
     };
-    std::vector<std::uint32_t> sources;
-    const GrowFrom grow_from = [&](std::span<const ClassedPoint> seeds) {
-      if (sources.empty()) sources = sources_of(scan_.index.impl(), scan_.points);
-      return grow(scan_, sources, seeds, candidates, parameters_, is_open);
-    };
-    const std::vector<ClassedPoint> seeds = find_seeds(scan_, candidates, priors_, parameters_, grow_from);
-    for (const Candidate& candidate : candidates) detection.classes[candidate.index] = PointClass::unchanged;
-    if (seeds.empty()) return;
-    for (const auto& [i, point_class] : grow_from(seeds)) detection.classes[i] = point_class;
+    const std::vector<std::uint32_t> sources = sources_of(scan_.index.impl(), scan_.points);
+    for (const auto& [i, point_class] : grow(scan_, sources, seeds, candidates, parameters_, is_open)) {
+      detection.classes[i] = point_class;
+    }
   }
 
   /// What is free in any prior; contradicted if the priors together say otherwise.

@@ -7,10 +7,15 @@
 namespace raywatch {
 namespace {
 
-/// Whether the shots beside a point surround it and all went behind it. The cone of T_a is as wide as the coarser of
-/// the two spacings demands; the ellipse of the shots beside a point is not.
-bool is_before_shots(const PriorIndex::Impl& index, const Eigen::Vector3d& point_m, const Eigen::Vector2d& radii_rad,
-                     double margin_m) {
+/// The shots around a point.
+struct Shots {
+  bool surround = false;  ///< some on each side
+  bool behind = true;     ///< all ended well behind the point
+};
+
+/// Those in an ellipse of directions: the cone of T_a is as wide as the coarser of the two spacings demands.
+Shots shots_around(const PriorIndex::Impl& index, const Eigen::Vector3d& point_m, const Eigen::Vector2d& radii_rad,
+                   double margin_m) {
   const double range_m = point_m.norm();
   const Eigen::Vector3d east = Eigen::Vector3d::UnitZ().cross(point_m).normalized();
   const Eigen::Vector3d north = point_m.cross(east) / range_m;
@@ -26,7 +31,7 @@ bool is_before_shots(const PriorIndex::Impl& index, const Eigen::Vector3d& point
     on_south |= offset_rad.y() < 0.0;
     on_north |= offset_rad.y() > 0.0;
   });
-  return behind && on_west && on_east && on_south && on_north;
+  return {.surround = on_west && on_east && on_south && on_north, .behind = behind};
 }
 
 }  // namespace
@@ -37,8 +42,23 @@ void ask_footprints(const ScanView& asked, const PointCloud& points, const Pose&
   const PriorIndex::Impl& index = asked.index.impl();
   const Eigen::Vector2d radii_rad = kBeside * spacing_of(asked);
   for_each_point(points, asked_from_points, [&](std::size_t i, const Eigen::Vector3d& point_m) {
-    if (answers[i] == Answer::ambiguous && is_before_shots(index, point_m, radii_rad, range_m)) {
-      answers[i] = Answer::free;
+    if (answers[i] != Answer::ambiguous) return;
+    const Shots shots = shots_around(index, point_m, radii_rad, range_m);
+    if (shots.surround && shots.behind) answers[i] = Answer::free;
+  });
+}
+
+void withhold_at_borders(const ScanView& asked, const PointCloud& points, const Pose& asked_from_points, double noise_m,
+                         std::span<Answer> answers) {
+  constexpr double kAround = 2.5;  // in spacings: on each side several shots, of which some may have been lost
+  constexpr double kNoise = 2.5;   // in standard deviations
+  const PriorIndex::Impl& index = asked.index.impl();
+  const Eigen::Vector2d radii_rad = kAround * spacing_of(asked);
+  for_each_point(points, asked_from_points, [&](std::size_t i, const Eigen::Vector3d& point_m) {
+    if (answers[i] != Answer::free) return;
+    const Eigen::Vector2d moved_rad = radii_rad + Eigen::Vector2d::Constant(kNoise * noise_m / point_m.norm());
+    if (index.own.hide(point_m, moved_rad) || !shots_around(index, point_m, radii_rad, 0.0).surround) {
+      answers[i] = Answer::unseen;
     }
   });
 }

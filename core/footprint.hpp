@@ -13,4 +13,11 @@ namespace raywatch {
 void ask_footprints(const ScanView& asked, const PointCloud& points, const Pose& asked_from_points, double range_m,
                     std::span<Answer> answers);
 
+/// At the border of what `asked` covers, such as below its lowest ring, shots on one side only pass a point closely: a
+/// thing that ends just there looks as if they went through it. Beside what its own rig hides (`OwnReturns`), the noise
+/// of a point can move it out of that shadow. Where the shots do not surround a point, or the rig is in the way within
+/// `noise_m` of it, it is not free, but unseen. @param noise_m standard deviation of the points' ranges.
+void withhold_at_borders(const ScanView& asked, const PointCloud& points, const Pose& asked_from_points, double noise_m,
+                         std::span<Answer> answers);
+
 }  // namespace raywatch

@@ -5,6 +5,7 @@
 #include "core/cluster.hpp"
 #include "core/compare.hpp"
 #include "core/fold.hpp"
+#include "core/join_parts.hpp"
 #include "core/seeds.hpp"
 
 namespace raywatch {
@@ -29,7 +30,7 @@ struct ChangedPoint {
   Eigen::Vector3d world_m;
   double free = 0.0, supported = 0.0;  ///< shares of the priors
   std::uint32_t place = 0;             ///< in the scan, or in `Detection::prior_points`
-  bool of_scan = true;
+  std::uint32_t view = 0;              ///< 0: of the scan; else of the prior before that
   float reach_m = 0.0f;
 };
 
@@ -41,20 +42,18 @@ std::vector<ChangedPoint> changed_points(ChangeKind kind, const ScanView& scan, 
   for (std::uint32_t i = 0; i < detection.classes.size(); ++i) {
     if (detection.classes[i] != wanted) continue;
     points.push_back({scan.world_from_sensor * scan.points[i].cast<double>(), detection.free[i] / voters,
-                      detection.supported[i] / voters, i, true, reach_m(scan, scan.points[i], parameters)});
+                      detection.supported[i] / voters, i, 0, reach_m(scan, scan.points[i], parameters)});
   }
   for (std::uint32_t k = 0; k < detection.prior_points.size(); ++k) {
     const PriorPoint& point = detection.prior_points[k];
     if (point.point_class != wanted) continue;
     const ScanView& prior = priors[point.prior];
     points.push_back({prior.world_from_sensor * prior.points[point.index].cast<double>(),
-                      detection.prior_votes[k].free / voters, detection.prior_votes[k].supported / voters, k, false,
-                      reach_m(prior, prior.points[point.index], parameters)});
+                      detection.prior_votes[k].free / voters, detection.prior_votes[k].supported / voters, k,
+                      point.prior + 1, reach_m(prior, prior.points[point.index], parameters)});
   }
   return points;
 }
-
-using Members = std::vector<std::uint32_t>;  // places in the list of changed points of one kind
 
 /// How far apart the parts of one change may be, in multiples of the reach of its points. In a consensus what is still
 /// called changed surely is, so that parts which shadows and lost returns have separated can be joined.
@@ -110,10 +109,23 @@ struct FoundChange {
   Members members;
 };
 
+/// What is seen of one thing through gaps in other things, or before and behind its own near side, is one change.
+std::vector<Members> whole_things(std::vector<Members> clusters, const std::vector<ChangedPoint>& points,
+                                  const std::vector<const ScanView*>& views, const CompareParameters& parameters) {
+  if (parameters.grouping == Grouping::union_) return clusters;
+  std::vector<Eigen::Vector3d> world_m;
+  std::vector<std::uint32_t> view_of;
+  for (const ChangedPoint& point : points) {
+    world_m.push_back(point.world_m);
+    view_of.push_back(point.view);
+  }
+  return join_parts(std::move(clusters), {world_m, view_of, views}, parameters);
+}
+
 std::vector<FoundChange> find_changes(ChangeKind kind, const std::vector<ChangedPoint>& points,
-                                      const CompareParameters& parameters) {
+                                      const std::vector<const ScanView*>& views, const CompareParameters& parameters) {
   std::vector<FoundChange> found;
-  for (Members& members : kept_clusters(points, parameters)) {
+  for (Members& members : whole_things(kept_clusters(points, parameters), points, views, parameters)) {
     Change change = describe(kind, points, members);
     found.push_back({std::move(change), std::move(members)});
   }
@@ -154,13 +166,15 @@ Comparison form_changes(const ScanView& scan, std::span<const ScanView> priors, 
   Comparison comparison;
   comparison.change_of.assign(detection.classes.size(), -1);
   if (parameters.clustering) {
+    std::vector<const ScanView*> views{&scan};
+    for (const ScanView& prior : priors) views.push_back(&prior);
     for (const ChangeKind kind : kKinds) {
       const std::vector<ChangedPoint> points = changed_points(kind, scan, priors, parameters, detection);
-      for (FoundChange& found : find_changes(kind, points, parameters)) {
+      for (FoundChange& found : find_changes(kind, points, views, parameters)) {
         const auto number = static_cast<std::int32_t>(comparison.changes.size());
         for (const std::uint32_t member : found.members) {
           const ChangedPoint& point = points[member];
-          (point.of_scan ? comparison.change_of[point.place] : detection.prior_points[point.place].change) = number;
+          (point.view == 0 ? comparison.change_of[point.place] : detection.prior_points[point.place].change) = number;
         }
         comparison.changes.push_back(std::move(found.change));
       }

@@ -64,16 +64,7 @@ class PriorSearch {
     for (std::size_t k = 0; k < free.size(); ++k) {
       state.candidates.push_back({free[k], class_of_prior_point(epochs_[p]), refuted[k] != 0});
     }
-    if (!asking_.grows()) return;
-    const GrowFrom grow_from = [&](std::span<const ClassedPoint> seeds) { return grown_from(p, seeds); };
-    state.seeds = find_seeds(prior, state.candidates, {&scan_, 1}, parameters_, grow_from);
-  }
-
-  std::vector<ClassedPoint> grown_from(std::uint32_t p, std::span<const ClassedPoint> seeds) {
-    const ScanView& prior = priors_[p];
-    PriorState& state = states_[p];
-    if (state.sources.empty()) state.sources = sources_of(prior.index.impl(), prior.points);
-    return grow(prior, state.sources, seeds, state.candidates, parameters_, is_open_in(p));
+    if (asking_.grows()) state.seeds = find_seeds(prior, state.candidates, {&scan_, 1}, parameters_);
   }
 
   bool any_seeds() const {
@@ -87,7 +78,8 @@ class PriorSearch {
   void grow_over(std::uint32_t p) {
     const ScanView& prior = priors_[p];
     PriorState& state = states_[p];
-    state.grown = grown_from(p, state.seeds);
+    state.sources = sources_of(prior.index.impl(), prior.points);
+    state.grown = grow(prior, state.sources, state.seeds, state.candidates, parameters_, is_open_in(p));
     state.is_grown.emplace(prior, state.sources);
     for (const ClassedPoint& point : state.grown) state.is_grown->mark(point.index);
   }

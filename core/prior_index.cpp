@@ -174,6 +174,7 @@ class CellSort {
 PriorIndex PriorIndex::build(const PointCloud& points, const UsableRange& usable) {
   auto impl = std::make_unique<Impl>();
   impl->usable = usable;
+  impl->own = OwnReturns(points, usable);
   const ScannedBand band = elevation_band_of(planes_of(points), usable);
   if (band.count > 0) {
     impl->grid = grid_for(band, occupied_share(planes_of(points), usable, band));
@@ -206,7 +207,7 @@ PriorIndex::~PriorIndex() = default;
 std::size_t PriorIndex::size() const { return impl_->returns.size(); }
 std::size_t PriorIndex::bytes() const {
   constexpr std::size_t kBytesPerCell = sizeof(std::uint32_t) + 2 * sizeof(float);
-  return sizeof(Impl) + size() * sizeof(Return) + impl_->grid.cells() * kBytesPerCell;
+  return sizeof(Impl) + size() * sizeof(Return) + impl_->grid.cells() * kBytesPerCell + impl_->own.bytes();
 }
 const UsableRange& PriorIndex::usable() const { return impl_->usable; }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/direction_grid.hpp"
+#include "core/own_returns.hpp"
 #include "core/prior_index.hpp"
 #include "core/raw_array.hpp"
 
@@ -29,6 +30,7 @@ struct PriorIndex::Impl {
   RawArray<Return> returns;
   RawArray<std::uint32_t> first;        ///< first return of each cell, and the number of returns
   RawArray<float> least_m, greatest_m;  ///< ranges of each cell's returns; infinity and -infinity where it is empty
+  OwnReturns own;                       ///< which are not among the returns
 };
 
 /// The place in the scan of each return of its index, which is made anew in O(n): only few comparisons need it.

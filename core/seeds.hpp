@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <span>
-#include <functional>
 #include <vector>
 
 #include "core/compare.hpp"
@@ -26,14 +25,9 @@ struct Candidate {
 /// too sparse for it. In a union always `cluster_distance_m`.
 float reach_m(const ScanView& view, const Eigen::Vector3f& point_m, const CompareParameters& parameters);
 
-/// Grows changes from points, as if they surely had changed (core/grow.hpp).
-using GrowFrom = std::function<std::vector<ClassedPoint>(std::span<const ClassedPoint>)>;
-
 /// The candidates that surely changed: those in clusters of which one of the `asked` scans surely saw the place free
-/// (core/cluster_votes.hpp), by themselves or together with what grows from them, and which are mostly not
-/// contradicted. By kind, cluster and index.
+/// (core/cluster_votes.hpp), and which are mostly not contradicted. By kind, cluster and index.
 std::vector<ClassedPoint> find_seeds(const ScanView& view, std::span<const Candidate> candidates,
-                                     std::span<const ScanView> asked, const CompareParameters& parameters,
-                                     const GrowFrom& grow_from);
+                                     std::span<const ScanView> asked, const CompareParameters& parameters);
 
 }  // namespace raywatch

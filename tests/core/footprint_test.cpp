@@ -55,5 +55,41 @@ TEST_CASE("only what is ambiguous is decided") {
   }
 }
 
+/// What is left of "free" at a place of a scan whose own rig, if any, stands in the given columns.
+Answer kept_at(double column, double row, double noise_m, int rig_from = 99, int rig_to = -99) {
+  const PointCloud cloud = shoot([=](int c, int) { return c >= rig_from && c <= rig_to ? 0.4 : 10.0; });
+  Taken asked(cloud);
+  asked.index = PriorIndex::build(cloud, {.min_m = 0.75});
+  PointCloud points;
+  push_shot(points, column, row, 2.0);
+  std::vector<Answer> answers{Answer::free};
+  withhold_at_borders(asked.view(), points, Pose{}, noise_m, answers);
+  return answers.front();
+}
+
+TEST_CASE("below the lowest and beside the last shots of a scan nothing is free, and well inside it stays free") {
+  CHECK(kept_at(0.3, -19.7, 0.0) == Answer::free);
+  CHECK(kept_at(0.3, -20.2, 0.0) == Answer::unseen);
+  CHECK(kept_at(20.2, 0.3, 0.0) == Answer::unseen);
+  CHECK(kept_at(19.6, 0.3, 0.0) == Answer::free);
+}
+
+TEST_CASE("beside what the rig hides nothing is free, as far as noise may have moved a point") {
+  CHECK(kept_at(6.0, 0.0, 0.0, -1, 1) == Answer::free);
+  CHECK(kept_at(2.5, 0.0, 0.0, -1, 1) == Answer::unseen);
+  CHECK(kept_at(6.0, 0.0, 0.05, -1, 1) == Answer::unseen);  // 5 cm at 2 m: 2.5 of them are 3.6 degrees
+  CHECK(kept_at(12.0, 0.0, 0.05, -1, 1) == Answer::free);
+}
+
+TEST_CASE("only what is free is withheld") {
+  for (const Answer before : {Answer::supported, Answer::occluded, Answer::ambiguous}) {
+    PointCloud points;
+    push_shot(points, 30.0, 0.0, 2.0);
+    std::vector<Answer> answers{before};
+    withhold_at_borders(wall_behind_post().view(), points, Pose{}, 0.0, answers);
+    CHECK(answers.front() == before);
+  }
+}
+
 }  // namespace
 }  // namespace raywatch
