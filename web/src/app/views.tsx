@@ -69,6 +69,8 @@ export const kViews: readonly View[] = [
   view('/sensors/:name', 'Sensor', SensorView),
   view('/surveys', 'Surveys', surveys('SurveysView'), { icon: 'survey' }),
   view('/surveys/series', 'Series of surveys', surveys('SeriesView')),
+  view('/surveys/compare', 'Compare two nights', surveys('CompareNightsView')),
+  view('/surveys/runs/:id', 'Run of a survey', surveys('RunView')),
   view('/surveys/:id', 'Survey', surveys('SurveyView')),
   view('/surveys/schedules/new', 'New schedule', surveys('NewScheduleView')),
   view('/surveys/schedules/:id', 'Schedule', surveys('ScheduleView')),

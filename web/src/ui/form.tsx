@@ -2,7 +2,6 @@
 
 import { type ComponentChildren } from 'preact';
 import { useId } from 'preact/hooks';
-import { type Problem } from '../lib/problem';
 
 export interface FieldProps {
   label: string;
@@ -45,13 +44,16 @@ export function TextField({
   onValue,
   type = 'text',
   required,
+  max,
   placeholder,
   disabled,
   first,
   ...field
 }: InputProps & {
-  type?: 'text' | 'password' | 'url' | 'email' | 'time';
+  type?: 'text' | 'password' | 'url' | 'email' | 'time' | 'datetime-local';
   required?: boolean;
+  /** The latest, of times. */
+  max?: string;
   placeholder?: string;
   /** Gets the focus when its dialog opens. */
   first?: boolean;
@@ -63,6 +65,7 @@ export function TextField({
           {...ties}
           type={type}
           required={required}
+          max={max}
           placeholder={placeholder}
           disabled={disabled}
           data-first={first}
@@ -145,36 +148,61 @@ export function SelectField<Value extends string>({
 
 export function CheckField({
   label,
-  checked,
-  onChecked,
+  value,
+  onValue,
   hint,
-}: {
-  label: string;
-  checked: boolean;
-  onChecked: (checked: boolean) => void;
-  hint?: string;
-}) {
+  error,
+}: FieldProps & { value: boolean; onValue: (value: boolean) => void }) {
   return (
     <label class="check-field">
-      <input type="checkbox" checked={checked} onChange={(event) => onChecked(event.currentTarget.checked)} />
+      <input type="checkbox" checked={value} onChange={(event) => onValue(event.currentTarget.checked)} />
       <span>
         {label}
         {hint && <span class="field-hint"> {hint}</span>}
+        {error && <span class="field-bad"> {error}</span>}
       </span>
     </label>
   );
 }
 
-/** What the daemon said about a form, as far as no field of the form says it. */
-export function FormProblem({ problem, shown }: { problem: Problem | undefined; shown: readonly string[] }) {
-  if (!problem) return null;
-  const rest = problem.fields.filter(({ field }) => !shown.includes(field));
-  if (problem.fields.length > 0 && rest.length === 0) return null;
+/** Some of several, each with its box. */
+export function ChoicesField<Value extends string | number>({
+  label,
+  error,
+  choices,
+  value,
+  onValue,
+}: FieldProps & {
+  choices: readonly { readonly value: Value; readonly words: string }[];
+  value: readonly Value[];
+  onValue: (value: Value[]) => void;
+}) {
   return (
-    <p class="field-bad" role="alert">
-      {problem.fields.length === 0
-        ? `${problem.title}. ${problem.message}`
-        : rest.map(({ field, message }) => `${field} ${message}`).join('; ')}
-    </p>
+    <div class="field" role="group" aria-label={label}>
+      <span>{label}</span>
+      <div class="actions">
+        {choices.map((choice) => (
+          <CheckField
+            key={choice.value}
+            label={choice.words}
+            value={value.includes(choice.value)}
+            onValue={(chosen) =>
+              onValue(chosen ? [...value, choice.value] : value.filter((each) => each !== choice.value))
+            }
+          />
+        ))}
+      </div>
+      {error && <span class="field-bad">{error}</span>}
+    </div>
+  );
+}
+
+/** Fields that belong together, under a title. */
+export function FormPart({ title, children }: { title: string; children: ComponentChildren }) {
+  return (
+    <fieldset class="form-part">
+      <legend>{title}</legend>
+      {children}
+    </fieldset>
   );
 }

@@ -23,6 +23,13 @@ export function EmptyState({ title, children }: { title: string; children?: Comp
   );
 }
 
+/** The same as a panel of its own. */
+export const EmptyPanel = (props: { title: string; children?: ComponentChildren }) => (
+  <div class="panel">
+    <EmptyState {...props} />
+  </div>
+);
+
 export function ErrorState({ problem, retry }: { problem: Problem; retry?: () => void }) {
   return (
     <div class="placeholder placeholder-bad" role="alert">

@@ -5,12 +5,12 @@ import { loader, showToast, useResource } from '../../app/app';
 import { address, type Schema, send } from '../../lib/api';
 import { bytes, counted, count } from '../../lib/format';
 import { type Resource } from '../../lib/resources';
-import { FormProblem, NumberField } from '../../ui/form';
+import { EditForm, useEditing } from '../../ui/edit_form';
+import { NumberField } from '../../ui/form';
 import { Icon } from '../../ui/icon';
 import { SitePicker } from '../../ui/site_picker';
 import { Loaded } from '../../ui/states';
 import { Time } from '../../ui/time';
-import { useSaving } from '../../ui/use_saving';
 import { draftOf, type LimitsDraft, limitsOf } from './limits';
 
 type Site = Schema<'Site'>;
@@ -47,9 +47,8 @@ const kFields = [
 ] as const;
 
 function RetentionForm({ site, resource }: { site: Site; resource: Resource<Site> }) {
-  const [draft, setDraft] = useState<LimitsDraft>(() => draftOf(site.retention));
+  const { draft, run, form } = useEditing<LimitsDraft>(() => draftOf(site.retention));
   const [preview, setPreview] = useState<Preview | undefined>();
-  const { saving, problem, run } = useSaving();
   const look = (): void =>
     void run(async () => {
       const body = { site: site.name, ...limitsOf(draft) };
@@ -72,45 +71,51 @@ function RetentionForm({ site, resource }: { site: Site; resource: Resource<Site
     loader.invalidate((key) => key === addressOf(site.name));
   };
   return (
-    <form
-      class="panel-body"
-      noValidate
-      onSubmit={(event) => {
-        event.preventDefault();
-        save();
-      }}
-    >
-      <p class="muted">
-        An empty field is as configured for all sites, and 0 no such limit here. What is pinned, normal now, behind an
-        open alert, or the first scan of a place is never deleted.
-      </p>
-      {kFields.map(({ key, field, label, unit, step }) => (
-        <NumberField
-          key={key}
-          label={label}
-          unit={unit}
-          min={0}
-          step={step}
-          placeholder="as configured"
-          value={draft[key]}
-          error={problem?.about(field) ?? problem?.about(`retention.${field}`)}
-          onValue={(value) => {
-            setPreview(undefined);
-            setDraft({ ...draft, [key]: value });
-          }}
-        />
-      ))}
-      <FormProblem problem={problem} shown={kFields.flatMap(({ field }) => [field, `retention.${field}`])} />
-      <div class="actions">
-        <button type="button" disabled={saving} onClick={look}>
-          Show what would go
-        </button>
-        <button type="submit" class="primary" disabled={saving}>
-          Save
-        </button>
-      </div>
-      {preview && <PreviewNotice preview={preview} />}
-    </form>
+    <>
+      <EditForm
+        {...form}
+        class="panel-body"
+        notice={
+          <p class="muted">
+            An empty field is as configured for all sites, and 0 no such limit here. What is pinned, normal now, behind
+            an open alert, or the first scan of a place is never deleted.
+          </p>
+        }
+        onDraft={(changed) => {
+          setPreview(undefined);
+          form.onDraft(changed);
+        }}
+        onSave={save}
+        actions={
+          <button type="button" disabled={form.saving} onClick={look}>
+            Show what would go
+          </button>
+        }
+      >
+        {(part) =>
+          kFields.map(({ key, field, label, unit, step }) => {
+            const tied = part.field(key, field);
+            return (
+              <NumberField
+                key={key}
+                label={label}
+                unit={unit}
+                min={0}
+                step={step}
+                placeholder="as configured"
+                {...tied}
+                error={tied.error ?? part.error(`retention.${field}`)}
+              />
+            );
+          })
+        }
+      </EditForm>
+      {preview && (
+        <div class="panel-body">
+          <PreviewNotice preview={preview} />
+        </div>
+      )}
+    </>
   );
 }
 

@@ -2,15 +2,18 @@
 
 import { useState } from 'preact/hooks';
 import { loader, showToast, useResource } from '../../app/app';
+import { linkTo } from '../../app/router';
 import { withOperator } from '../../app/operator';
 import { address, type Schema, send } from '../../lib/api';
 import { count, degrees, metres, percent } from '../../lib/format';
 import { StateBadge } from '../../ui/badges';
 import { Dialog } from '../../ui/dialog';
-import { FormProblem, TextField } from '../../ui/form';
+import { FormProblem } from '../../ui/edit_form';
+import { TextField } from '../../ui/form';
 import { Time } from '../../ui/time';
 import { useSaving } from '../../ui/use_saving';
-import { referenceInWords } from './words';
+import { RunLog } from './run_log';
+import { referenceInWords, referenceOf } from './words';
 
 type Survey = Schema<'SurveyDetail'>;
 type Scan = Schema<'SurveyedScan'>;
@@ -123,10 +126,11 @@ function ScanTable({ site, scans, caption }: { site: string; scans: readonly Sca
   );
 }
 
-function Settings({ survey: { ground, made_at, site } }: { survey: Survey }) {
+function Settings({ survey: whole }: { survey: Survey }) {
+  const { id, ground, made_at, site } = whole;
   const { survey } = ground;
   const facts: readonly (readonly [string, string])[] = [
-    ['Compared with', referenceInWords(survey.reference)],
+    ['Compared with', referenceInWords(referenceOf(whole))],
     ['Cells of the models', metres(survey.cell_m)],
     ['Core points of M3C2', `${metres(survey.core_spacing_m)} apart`],
     ['Registration error', `${metres(ground.registration_m, 3)} (M3C2)`],
@@ -140,7 +144,11 @@ function Settings({ survey: { ground, made_at, site } }: { survey: Survey }) {
   ];
   return (
     <section>
-      <h3>Settings</h3>
+      <div class="actions">
+        <h3>Settings</h3>
+        <span class="spacer" />
+        <a href={linkTo('/surveys/compare', { site, like: id })}>Compare these two otherwise</a>
+      </div>
       <dl class="figures">
         {facts.map(([name, value]) => (
           <div key={name}>
@@ -161,24 +169,7 @@ function Settings({ survey: { ground, made_at, site } }: { survey: Survey }) {
 
 function Log({ survey }: { survey: Survey }) {
   const run = useResource(address('/api/v1/surveys/runs/{id}', { path: { id: survey.run } })).data;
-  return (
-    <section class="panel panel-wide survey-log" aria-labelledby="log">
-      <header class="panel-head">
-        <h2 id="log">Log of its run</h2>
-        <span class="muted">run {survey.run}</span>
-      </header>
-      <ol class="panel-body">
-        {run?.log.map(({ at, text }, index) => (
-          <li key={index}>
-            <span class="muted">
-              <Time at={at} site={survey.site} />
-            </span>
-            <span>{text}</span>
-          </li>
-        ))}
-      </ol>
-    </section>
-  );
+  return run ? <RunLog run={run} /> : null;
 }
 
 /** Schedules that compare with what is accepted compare with the latest accepted epoch. */
@@ -207,7 +198,7 @@ function AcceptDialog({ epoch, onClose }: { epoch: number; onClose: () => void }
           Schedules that compare with the latest accepted state compare with this one from now on. Its scans are kept.
         </p>
         <TextField label="Note" first value={note} placeholder="may be left empty" onValue={setNote} />
-        <FormProblem problem={problem} shown={[]} />
+        <FormProblem problem={problem} />
         <div class="actions">
           <button type="submit" class="primary" disabled={saving}>
             Accept it

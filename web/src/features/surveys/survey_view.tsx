@@ -17,7 +17,7 @@ import { RestsOn } from './rests_on';
 import { SurveyChanges } from './survey_changes';
 import { SurveyMap } from './survey_map';
 import { ZoneFigures } from './zone_figures';
-import { figureText, interval, kFigures, unitOf, worst } from './words';
+import { figureText, interval, kFigures, referenceOf, unitOf, worst } from './words';
 
 type Survey = Schema<'SurveyDetail'>;
 
@@ -78,10 +78,11 @@ function OneSurvey({ survey }: { survey: Survey }) {
   );
 }
 
-function Summary({ survey: { total, ground } }: { survey: Survey }) {
+function Summary({ survey }: { survey: Survey }) {
+  const { total } = survey;
   return (
     <dl class="panel panel-wide survey-cards">
-      <NetCutFill total={total} reference={ground.survey.reference} />
+      <NetCutFill total={total} reference={referenceOf(survey)} />
       <Card title="Changed area" under={`of ${squareMetres(total.seen_area_m2)} that were seen`}>
         {squareMetres(total.changed_area_m2)}
       </Card>

@@ -3,14 +3,21 @@
 import './surveys.css';
 import { setQuery, useResource, useSelect } from '../../app/app';
 import { linkTo } from '../../app/router';
+import { useChosenSite } from '../../app/sites';
+import { useAskAgain } from '../../app/polling';
 import { address } from '../../lib/api';
 import { percent } from '../../lib/format';
 import { ChoiceFilter } from '../../ui/filters';
 import { type Column, DataTable } from '../../ui/data_table';
 import { SitePicker } from '../../ui/site_picker';
-import { EmptyState } from '../../ui/states';
+import { AtSite } from '../../ui/at_site';
+import { EmptyPanel } from '../../ui/states';
+import { CancelRun } from './cancel_run';
 import { Coordinates, LevelBadge, NightTime, RunBadge } from './badges';
 import {
+  isUnfinished,
+  kAskRunsMs,
+  linkToRun,
   type Judged,
   type Run,
   type Schedule,
@@ -18,7 +25,6 @@ import {
   levelsOf,
   useLevels,
   useSchedules,
-  useSurveyedSite,
   useVolumeZones,
   volumesAt,
   type ZoneFigures,
@@ -52,11 +58,12 @@ function columnsFor(zone: number | undefined, levels: LevelsOf): readonly Column
 
 function Night({ run }: { run: Run }) {
   const time = <NightTime at={run.due_at} site={run.site} />;
-  if (run.survey !== null) return <a href={`/surveys/${run.survey}`}>{time}</a>;
+  const said = run.survey !== null ? '' : run.state === 'done' ? 'the first' : kRunStates[run.state].words;
   return (
     <>
-      {time}
-      <span class="survey-under only-narrow">{run.state === 'done' ? 'the first' : kRunStates[run.state].words}</span>
+      <a href={linkToRun(run)}>{time}</a>
+      {run.schedule === null && <span class="survey-under">by hand</span>}
+      {said !== '' && <span class="survey-under only-narrow">{said}</span>}
     </>
   );
 }
@@ -65,8 +72,9 @@ function RunState({ run }: { run: Run }) {
   const isFirst = run.state === 'done' && run.survey === null;
   return (
     <>
-      <RunBadge state={run.state} />
+      <RunBadge state={run.state} />{' '}
       {(isMissed(run) || isFirst) && <span class="survey-under survey-why">{run.why}</span>}
+      <CancelRun run={run} />
     </>
   );
 }
@@ -118,13 +126,15 @@ function useRuns(site: string | undefined) {
   const { schedule, state, cursor } = useSelect((all) => all.location.query);
   // States are not asked for but sought, in as many runs as one answer has.
   const query = { cursor, limit: state === undefined ? kLines : kMostSought };
-  const page = useResource(
+  const from =
     site === undefined
       ? undefined
       : schedule === undefined
         ? address('/api/v1/surveys/runs', { query: { site, ...query } })
-        : address('/api/v1/schedules/{id}/runs', { path: { id: Number(schedule) }, query }),
-  );
+        : address('/api/v1/schedules/{id}/runs', { path: { id: Number(schedule) }, query });
+  const page = useResource(from);
+  // That a run began is told by no event.
+  useAskAgain(from, state === undefined && page.data?.items.some(isUnfinished) ? kAskRunsMs : undefined);
   if (!page.data || state === undefined) return page;
   const items = page.data.items.filter((run) => run.state === state).slice(0, 2 * kLines);
   return { ...page, data: { ...page.data, items } };
@@ -132,7 +142,7 @@ function useRuns(site: string | undefined) {
 
 export function SurveysView() {
   const query = useSelect((state) => state.location.query);
-  const site = useSurveyedSite(query['site']);
+  const site = useChosenSite('survey');
   const schedules = useSchedules(site);
   return (
     <>
@@ -151,21 +161,22 @@ export function SurveysView() {
         <a class="button" href={linkTo('/surveys/series', { site, schedule: query['schedule'] })}>
           Series
         </a>
+        <a class="button" href={linkTo('/surveys/compare', { site })}>
+          Compare two nights …
+        </a>
         <a class="button primary" href={linkTo('/surveys/schedules/new', { site })}>
           New schedule
         </a>
       </div>
-      {site === undefined ? (
-        <div class="panel">
-          <EmptyState title="There is no site yet." />
-        </div>
-      ) : (
-        <div class="surveys">
-          <Latest schedules={schedules.data?.items ?? []} />
-          <ScheduleList site={site} schedules={schedules} />
-          <Nights key={site} site={site} schedules={schedules.data?.items ?? []} />
-        </div>
-      )}
+      <AtSite site={site}>
+        {(name) => (
+          <div class="surveys">
+            <Latest schedules={schedules.data?.items ?? []} />
+            <ScheduleList site={name} schedules={schedules} />
+            <Nights key={name} site={name} schedules={schedules.data?.items ?? []} />
+          </div>
+        )}
+      </AtSite>
     </>
   );
 }
@@ -211,15 +222,13 @@ function Nights({ site, schedules }: { site: string; schedules: readonly Schedul
           </>
         }
         empty={
-          <div class="panel">
-            {isFiltered ? (
-              <EmptyState title="No night is like this." />
-            ) : (
-              <EmptyState title="No night was surveyed yet.">
-                <p>A schedule compares what was scanned each night with what was there before.</p>
-              </EmptyState>
-            )}
-          </div>
+          isFiltered ? (
+            <EmptyPanel title="No night is like this." />
+          ) : (
+            <EmptyPanel title="No night was surveyed yet.">
+              <p>A schedule compares what was scanned each night with what was there before.</p>
+            </EmptyPanel>
+          )
         }
       />
     </div>
