@@ -5,6 +5,8 @@ import { useResource, useSelect } from './app';
 
 export const kSites = address('/api/v1/sites', { query: { limit: 1000 } });
 
+export const siteAt = (name: string) => address('/api/v1/sites/{name}', { path: { name } });
+
 export function useSites(): readonly Schema<'Site'>[] {
   return useResource(kSites).data?.items ?? [];
 }

@@ -9,6 +9,8 @@ export interface FieldProps {
   hint?: string | undefined;
   /** What is wrong with it. */
   error?: string | undefined;
+  /** Something is, which is said elsewhere. */
+  wrong?: boolean | undefined;
 }
 
 /** What ties an input to its label and to its messages. */
@@ -19,13 +21,19 @@ export interface Ties {
 }
 
 /** A label over whatever is filled in, and what is said about it beneath. */
-export function Field({ label, hint, error, children }: FieldProps & { children: (ties: Ties) => ComponentChildren }) {
+export function Field({
+  label,
+  hint,
+  error,
+  wrong,
+  children,
+}: FieldProps & { children: (ties: Ties) => ComponentChildren }) {
   const id = useId();
   const about = `${id}-about`;
   return (
     <div class="field">
       <label for={id}>{label}</label>
-      {children({ id, 'aria-invalid': error !== undefined, 'aria-describedby': about })}
+      {children({ id, 'aria-invalid': wrong || error !== undefined, 'aria-describedby': about })}
       <span id={about} class={error === undefined ? 'field-hint' : 'field-bad'}>
         {error ?? hint}
       </span>
@@ -162,6 +170,44 @@ export function CheckField({
         {error && <span class="field-bad"> {error}</span>}
       </span>
     </label>
+  );
+}
+
+/** Three numbers that belong together, as they are typed. */
+export function VectorField({
+  label,
+  error,
+  axes,
+  value,
+  onValue,
+}: FieldProps & {
+  axes: readonly string[];
+  value: readonly [string, string, string];
+  onValue: (value: readonly [string, string, string]) => void;
+}) {
+  const about = useId();
+  return (
+    <div class="field" role="group" aria-label={label} aria-describedby={about}>
+      <span>{label}</span>
+      <div class="field-row">
+        {axes.map((axis, index) => (
+          <NumberField
+            key={axis}
+            label={axis}
+            unit="m"
+            value={value[index] ?? ''}
+            wrong={error !== undefined}
+            onValue={(text) => {
+              const [x, y, z] = value.with(index, text);
+              onValue([x ?? '', y ?? '', z ?? '']);
+            }}
+          />
+        ))}
+      </div>
+      <span id={about} class="field-bad">
+        {error}
+      </span>
+    </div>
   );
 }
 

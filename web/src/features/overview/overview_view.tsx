@@ -121,7 +121,9 @@ function SitePanel({ site, sensors }: { site: Schema<'Site'>; sensors: readonly 
   return (
     <section class="panel overview-sites" aria-label={`Site ${site.name}`}>
       <header class="panel-head">
-        <h2>{site.name}</h2>
+        <h2>
+          <a href={`/sites/${encodeURIComponent(site.name)}`}>{site.name}</a>
+        </h2>
         <span class="muted">
           {site.profile} · times in {site.time_zone}
           {site.epsg !== null && ` · EPSG:${site.epsg}`}

@@ -23,7 +23,8 @@ export function SensorView({ name }: { name: string }) {
           <div class="view-head">
             <h1>{data.name}</h1>
             <span class="muted">
-              at {data.site}, known since <Time at={data.created_at} site={data.site} />
+              at <a href={`/sites/${encodeURIComponent(data.site)}`}>{data.site}</a>, known since{' '}
+              <Time at={data.created_at} site={data.site} />
             </span>
             <span class="spacer" />
             <a class="button" href={`/scans?sensor=${encodeURIComponent(data.name)}`}>

@@ -9,7 +9,7 @@ type Sensor = Schema<'Sensor'>;
 
 const kColumns: readonly Column<Sensor>[] = [
   { head: 'Sensor', cell: ({ name }) => <a href={`/sensors/${encodeURIComponent(name)}`}>{name}</a> },
-  { head: 'Site', cell: ({ site }) => site },
+  { head: 'Site', cell: ({ site }) => <a href={`/sites/${encodeURIComponent(site)}`}>{site}</a> },
   {
     head: 'Stands at',
     cell: ({ pose }) => (pose ? placeMetres(pose.position_m) : <span class="muted">each scan says where</span>),

@@ -2,7 +2,8 @@
 
 import { useState } from 'preact/hooks';
 import { loader, showToast, useResource } from '../../app/app';
-import { address, type Schema, send } from '../../lib/api';
+import { siteAt } from '../../app/sites';
+import { type Schema, send } from '../../lib/api';
 import { bytes, counted, count } from '../../lib/format';
 import { type Resource } from '../../lib/resources';
 import { EditForm, useEditing } from '../../ui/edit_form';
@@ -16,10 +17,8 @@ import { draftOf, type LimitsDraft, limitsOf } from './limits';
 type Site = Schema<'Site'>;
 type Preview = NonNullable<Schema<'RetentionPreview'>['items']>[number];
 
-const addressOf = (name: string) => address('/api/v1/sites/{name}', { path: { name } });
-
 export function RetentionPanel({ site, onSite }: { site: string; onSite: (site: string) => void }) {
-  const resource = useResource(addressOf(site));
+  const resource = useResource(siteAt(site));
   return (
     <section class="panel" aria-labelledby="retention">
       <header class="panel-head">
@@ -59,16 +58,13 @@ function RetentionForm({ site, resource }: { site: Site; resource: Resource<Site
     void run(async () => {
       const body = { retention: limitsOf(draft) };
       const path = { name: site.name };
-      loader.put(
-        addressOf(site.name),
-        await send('patch', '/api/v1/sites/{name}', { path, body, etag: resource.etag }),
-      );
+      loader.put(siteAt(site.name), await send('patch', '/api/v1/sites/{name}', { path, body, etag: resource.etag }));
       loader.invalidate((key) => key.startsWith('/api/v1/sites?') || key.startsWith('/api/v1/storage'));
       showToast('good', `What is kept of ${site.name} was changed.`);
     }, conflict);
   const conflict = (): void => {
     showToast('bad', `Somebody else has changed ${site.name} meanwhile; what is there now is shown.`);
-    loader.invalidate((key) => key === addressOf(site.name));
+    loader.invalidate((key) => key === siteAt(site.name));
   };
   return (
     <>
