@@ -2,6 +2,7 @@
 
 import { useState } from 'preact/hooks';
 import { Dialog } from './dialog';
+import { NoteField } from './form';
 
 export function ConfirmDialog({
   title,
@@ -33,29 +34,14 @@ export function ConfirmDialog({
         }}
       >
         <p>{words}</p>
-        <NoteField note={note} onNote={setNote} about={about} />
+        <NoteField label={noteLabel(about)} value={note} onValue={setNote} />
         <Buttons doIt={doIt} doNot={doNot} first onClose={onClose} />
       </form>
     </Dialog>
   );
 }
 
-export function NoteField({
-  note,
-  onNote,
-  about = 'the alert',
-}: {
-  note: string;
-  onNote: (note: string) => void;
-  about?: string | undefined;
-}) {
-  return (
-    <label class="field">
-      Note (kept with {about}; may be left empty)
-      <textarea rows={2} maxLength={2000} value={note} onInput={(event) => onNote(event.currentTarget.value)} />
-    </label>
-  );
-}
+export const noteLabel = (about = 'the alert'): string => `Note (kept with ${about}; may be left empty)`;
 
 export function Buttons({
   doIt,

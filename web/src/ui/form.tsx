@@ -11,6 +11,7 @@ export interface FieldProps {
   error?: string | undefined;
   /** Something is, which is said elsewhere. */
   wrong?: boolean | undefined;
+  class?: string | undefined;
 }
 
 /** What ties an input to its label and to its messages. */
@@ -26,12 +27,13 @@ export function Field({
   hint,
   error,
   wrong,
+  class: looks = '',
   children,
 }: FieldProps & { children: (ties: Ties) => ComponentChildren }) {
   const id = useId();
   const about = `${id}-about`;
   return (
-    <div class="field">
+    <div class={`field ${looks}`}>
       <label for={id}>{label}</label>
       {children({ id, 'aria-invalid': wrong || error !== undefined, 'aria-describedby': about })}
       <span id={about} class={error === undefined ? 'field-hint' : 'field-bad'}>
@@ -53,6 +55,8 @@ export function TextField({
   type = 'text',
   required,
   max,
+  inputMode,
+  onDone,
   placeholder,
   disabled,
   first,
@@ -62,6 +66,9 @@ export function TextField({
   required?: boolean;
   /** The latest, of times. */
   max?: string;
+  inputMode?: 'numeric' | 'decimal';
+  /** It was typed to its end. */
+  onDone?: () => void;
   placeholder?: string;
   /** Gets the focus when its dialog opens. */
   first?: boolean;
@@ -74,6 +81,8 @@ export function TextField({
           type={type}
           required={required}
           max={max}
+          inputMode={inputMode}
+          onChange={onDone}
           placeholder={placeholder}
           disabled={disabled}
           data-first={first}
@@ -85,6 +94,21 @@ export function TextField({
     </Field>
   );
 }
+
+/** Some lines of text. */
+export const NoteField = ({ value, onValue, ...field }: FieldProps & Pick<InputProps, 'value' | 'onValue'>) => (
+  <Field {...field}>
+    {(ties) => (
+      <textarea
+        {...ties}
+        rows={2}
+        maxLength={2000}
+        value={value}
+        onInput={(event) => onValue(event.currentTarget.value)}
+      />
+    )}
+  </Field>
+);
 
 /** A number as it is typed: a text, so that what is not finished stays as it is. */
 export function NumberField({
@@ -127,12 +151,15 @@ export function SelectField<Value extends string>({
   onValue,
   options,
   disabled,
+  first,
   ...field
 }: FieldProps & {
   value: Value;
   onValue: (value: Value) => void;
   options: readonly { readonly value: Value; readonly words: string }[];
   disabled?: boolean;
+  /** Gets the focus when its dialog opens. */
+  first?: boolean;
 }) {
   return (
     <Field {...field}>
@@ -141,6 +168,7 @@ export function SelectField<Value extends string>({
           {...ties}
           value={value}
           disabled={disabled}
+          data-first={first}
           onChange={(event) => onValue(event.currentTarget.value as Value)}
         >
           {options.map((option) => (

@@ -1,12 +1,12 @@
 // What counts as normal at each site: every version, by whom, when and why; and learning it anew.
 
 import { useState } from 'preact/hooks';
-import { loader, setQuery, showProblem, showToast, useResource, useSelect } from '../../app/app';
+import { loader, setQuery, showToast, useResource, useSelect } from '../../app/app';
+import { attempt } from '../../app/attempt';
 import { withOperator } from '../../app/operator';
 import { useChosenSite } from '../../app/sites';
 import { address, type Schema, send } from '../../lib/api';
 import { counted, placeMetres } from '../../lib/format';
-import { Problem } from '../../lib/problem';
 import { StateBadge } from '../../ui/badges';
 import { ConfirmDialog } from '../../ui/confirm_dialog';
 import { type Column, DataTable } from '../../ui/data_table';
@@ -103,13 +103,10 @@ export function BaselinesView() {
 }
 
 async function learnAnew(site: string, by: string, note: string): Promise<void> {
-  try {
+  await attempt(async () => {
     const body = { by, mode: 'learn' as const, ...(note === '' ? {} : { note }) };
     await send('post', '/api/v1/baselines/{name}/accept', { path: { name: site }, body });
     showToast('good', `What is normal at ${site} is learned anew.`);
-  } catch (failure) {
-    if (!(failure instanceof Problem)) throw failure;
-    showProblem(failure);
-  }
+  });
   loader.invalidate((key) => key.startsWith('/api/v1/baselines'));
 }

@@ -3,7 +3,7 @@ import { address, type Schema } from '../../lib/api';
 import { duration, metres, placeMetres } from '../../lib/format';
 import { type Column, DataTable } from '../../ui/data_table';
 import { SiteFilter } from '../../ui/filters';
-import { EmptyState } from '../../ui/states';
+import { EmptyPanel } from '../../ui/states';
 
 type Sensor = Schema<'Sensor'>;
 
@@ -48,14 +48,12 @@ export function SensorsView() {
         searchText={({ name, site: at }) => `${name} ${at}`}
         filters={<SiteFilter />}
         empty={
-          <div class="panel">
-            <EmptyState title="There is no sensor yet.">
-              <p>
-                One is made with its first scan:{' '}
-                <code>raywatch ingest scans/*.pcd --site yard --sensor mast --create</code>
-              </p>
-            </EmptyState>
-          </div>
+          <EmptyPanel title="There is no sensor yet.">
+            <p>
+              One is made with its first scan:{' '}
+              <code>raywatch ingest scans/*.pcd --site yard --sensor mast --create</code>
+            </p>
+          </EmptyPanel>
         }
       />
     </>

@@ -1,5 +1,6 @@
 // What changed between any two epochs or time windows, asked for by hand.
 
+import './schedules.css';
 import './surveys.css';
 import { navigate, useResource, useSelect } from '../../app/app';
 import { useChosenSite, useZone } from '../../app/sites';

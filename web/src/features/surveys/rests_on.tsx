@@ -3,15 +3,13 @@
 import { useState } from 'preact/hooks';
 import { loader, showToast, useResource } from '../../app/app';
 import { linkTo } from '../../app/router';
+import { attempt } from '../../app/attempt';
 import { withOperator } from '../../app/operator';
 import { address, type Schema, send } from '../../lib/api';
 import { count, degrees, metres, percent } from '../../lib/format';
 import { StateBadge } from '../../ui/badges';
-import { Dialog } from '../../ui/dialog';
-import { FormProblem } from '../../ui/edit_form';
-import { TextField } from '../../ui/form';
+import { ConfirmDialog } from '../../ui/confirm_dialog';
 import { Time } from '../../ui/time';
-import { useSaving } from '../../ui/use_saving';
 import { RunLog } from './run_log';
 import { referenceInWords, referenceOf } from './words';
 
@@ -174,40 +172,25 @@ function Log({ survey }: { survey: Survey }) {
 
 /** Schedules that compare with what is accepted compare with the latest accepted epoch. */
 function AcceptDialog({ epoch, onClose }: { epoch: number; onClose: () => void }) {
-  const [note, setNote] = useState('');
-  const { saving, problem, run } = useSaving();
-  const accept = (): void =>
-    withOperator((by) => {
-      void run(async () => {
-        const answer = await send('post', '/api/v1/epochs/{id}/accept', { path: { id: epoch }, body: { by, note } });
-        loader.put(epochAt(epoch), { data: answer.data, etag: undefined });
-        loader.invalidate((key) => key.startsWith('/api/v1/epochs'));
-        showToast('good', `Epoch ${epoch} is accepted.`);
-        onClose();
-      });
+  const accept = (by: string, note: string): Promise<boolean> =>
+    attempt(async () => {
+      const answer = await send('post', '/api/v1/epochs/{id}/accept', { path: { id: epoch }, body: { by, note } });
+      loader.put(epochAt(epoch), { data: answer.data, etag: undefined });
+      loader.invalidate((key) => key.startsWith('/api/v1/epochs'));
+      showToast('good', `Epoch ${epoch} is accepted.`);
     });
   return (
-    <Dialog title={`Accept epoch ${epoch}?`} onClose={onClose}>
-      <form
-        onSubmit={(event) => {
-          event.preventDefault();
-          accept();
-        }}
-      >
-        <p>
-          Schedules that compare with the latest accepted state compare with this one from now on. Its scans are kept.
-        </p>
-        <TextField label="Note" first value={note} placeholder="may be left empty" onValue={setNote} />
-        <FormProblem problem={problem} />
-        <div class="actions">
-          <button type="submit" class="primary" disabled={saving}>
-            Accept it
-          </button>
-          <button type="button" onClick={onClose}>
-            Cancel
-          </button>
-        </div>
-      </form>
-    </Dialog>
+    <ConfirmDialog
+      title={`Accept epoch ${epoch}?`}
+      draft=""
+      about="the epoch"
+      words="Schedules that compare with the latest accepted state compare with this one from now on. Its scans are kept."
+      doIt="Accept it"
+      onClose={onClose}
+      onConfirm={(note) => {
+        onClose();
+        withOperator((by) => void accept(by, note));
+      }}
+    />
   );
 }

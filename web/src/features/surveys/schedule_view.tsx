@@ -1,5 +1,6 @@
 // One schedule: edited, run, paused, deleted, with what became of its runs. And a new one.
 
+import './schedules.css';
 import './surveys.css';
 import { useState } from 'preact/hooks';
 import { loader, navigate, showToast, useResource } from '../../app/app';

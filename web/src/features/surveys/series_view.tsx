@@ -8,7 +8,7 @@ import { useChosenSite } from '../../app/sites';
 import { address } from '../../lib/api';
 import { ChoiceFilter } from '../../ui/filters';
 import { SitePicker } from '../../ui/site_picker';
-import { EmptyState, Loaded } from '../../ui/states';
+import { EmptyPanel, Loaded } from '../../ui/states';
 import { type Schedule, useSchedules, useVolumeZones } from './data';
 import { kFigureNames, kFigures } from './words';
 
@@ -43,11 +43,9 @@ export function SeriesView() {
           return schedule ? (
             <OneSchedule schedule={schedule} schedules={items} />
           ) : (
-            <div class="panel">
-              <EmptyState title="There is no schedule yet, and so no series.">
-                <a href={linkTo('/surveys/schedules/new', { site })}>Make a schedule</a>
-              </EmptyState>
-            </div>
+            <EmptyPanel title="There is no schedule yet, and so no series.">
+              <a href={linkTo('/surveys/schedules/new', { site })}>Make a schedule</a>
+            </EmptyPanel>
           );
         }}
       </Loaded>
