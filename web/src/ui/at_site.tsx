@@ -13,8 +13,20 @@ export function AtSite({
   site: string | undefined;
   children: (site: string) => ComponentChildren;
 }) {
-  return site === undefined ? <EmptyPanel title="There is no site yet." /> : <>{children(site)}</>;
+  if (site !== undefined) return <>{children(site)}</>;
+  return (
+    <EmptyPanel title="There is no site yet.">
+      <FirstScan of="A site" />
+    </EmptyPanel>
+  );
 }
+
+/** How what is not there yet comes to be. */
+export const FirstScan = ({ of }: { of: string }) => (
+  <p>
+    {of} is made with its first scan: <code>raywatch ingest scans/*.pcd --site yard --sensor mast --create</code>
+  </p>
+);
 
 /** The view on which something new is made; its site stands in the link. */
 export function NewAtSite({

@@ -139,7 +139,7 @@ export function NumberField({
             value={value}
             onInput={(event) => onValue(event.currentTarget.value)}
           />
-          <span id={`${ties.id}-unit`}>{unit}</span>
+          {unit !== '' && <span id={`${ties.id}-unit`}>{unit}</span>}
         </span>
       )}
     </Field>
@@ -217,7 +217,7 @@ export function VectorField({
   return (
     <div class="field" role="group" aria-label={label} aria-describedby={about}>
       <span>{label}</span>
-      <div class="field-row">
+      <div class="field-triple">
         {axes.map((axis, index) => (
           <NumberField
             key={axis}
@@ -226,7 +226,7 @@ export function VectorField({
             value={value[index] ?? ''}
             wrong={error !== undefined}
             onValue={(text) => {
-              const [x, y, z] = value.with(index, text);
+              const [x, y, z] = value.map((each, at) => (at === index ? text : each));
               onValue([x ?? '', y ?? '', z ?? '']);
             }}
           />

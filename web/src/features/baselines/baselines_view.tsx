@@ -18,7 +18,7 @@ import { Time } from '../../ui/time';
 type Baseline = Schema<'Baseline'>;
 
 const kColumns: readonly Column<Baseline>[] = [
-  { head: 'Version', cell: ({ version }) => version, numeric: true },
+  { head: 'Version', cell: ({ version }) => version },
   { head: 'Kind', cell: ({ kind }) => <StateBadge>{kind}</StateBadge> },
   { head: 'Made', cell: ({ made_at, site }) => <Time at={made_at} site={site} /> },
   { head: 'By', cell: ({ by }) => by },

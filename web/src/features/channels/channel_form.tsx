@@ -4,7 +4,7 @@ import { useSites } from '../../app/sites';
 import { type Schema } from '../../lib/api';
 import { EditForm, type EditFormProps, type PartProps } from '../../ui/edit_form';
 import { CheckField, FormPart, NumberField, SelectField, TextField } from '../../ui/form';
-import { type ChannelDraft, newSecret } from './draft';
+import { type ChannelDraft, faultsOf, newSecret } from './draft';
 
 export interface ChannelFormProps extends EditFormProps<ChannelDraft> {
   /** As it is kept; nothing for a new one. */
@@ -20,7 +20,7 @@ const kSeverities = (['info', 'advisory', 'warning', 'critical'] as const).map((
 export function ChannelForm({ channel, ...form }: ChannelFormProps) {
   const { kind } = form.draft;
   return (
-    <EditForm {...form}>
+    <EditForm {...form} faults={faultsOf(form.draft)}>
       {(part) => (
         <>
           <TextField label="Name" {...part.field('name')} />

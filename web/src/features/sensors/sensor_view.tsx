@@ -33,8 +33,8 @@ export function SensorView({ name }: { name: string }) {
           </div>
           <div class="panels">
             <Facts sensor={data} />
-            <LatestPanorama sensor={data.name} />
             <Edit key={sensor.etag} sensor={data} resource={sensor} />
+            <LatestPanorama sensor={data.name} />
           </div>
         </>
       )}

@@ -2,6 +2,7 @@ import { useResource, useSelect } from '../../app/app';
 import { address, type Schema } from '../../lib/api';
 import { duration, metres, placeMetres } from '../../lib/format';
 import { type Column, DataTable } from '../../ui/data_table';
+import { FirstScan } from '../../ui/at_site';
 import { SiteFilter } from '../../ui/filters';
 import { EmptyPanel } from '../../ui/states';
 
@@ -49,10 +50,7 @@ export function SensorsView() {
         filters={<SiteFilter />}
         empty={
           <EmptyPanel title="There is no sensor yet.">
-            <p>
-              One is made with its first scan:{' '}
-              <code>raywatch ingest scans/*.pcd --site yard --sensor mast --create</code>
-            </p>
+            <FirstScan of="One" />
           </EmptyPanel>
         }
       />

@@ -135,9 +135,10 @@ function GridFields({ draft, field, error }: PartProps<CoordinatesDraft>) {
         />
         <NumberField
           label="Scale"
-          unit="m in the grid for 1 m"
+          unit=""
           min={0.9}
           max={1.1}
+          hint="metres in the grid for 1 m of the site"
           {...field('scale', 'mine_grid.scale')}
         />
       </div>

@@ -79,7 +79,7 @@ function OneSide({
   const { error: ofAll, ...epoch } = field('epoch', side);
   return (
     <FormPart title={title}>
-      <div class="field-row">
+      <div class="field-row field-row-wide">
         <SelectField label="By" options={kBy} {...field('by', `${side}.by`)} />
         {draft.by === 'epoch' ? (
           <EpochField label="Epoch" site={site} {...epoch} error={ofAll} />

@@ -137,6 +137,7 @@ function Alarm({ survey, judged }: { survey: Survey; judged: readonly Judged[] }
     useResource(address('/api/v1/alerts', { query: { site: survey.site, limit: 1000 } })).data?.items ?? [];
   const standing = alerts.filter(
     ({ cause, opened_at, edited_at, state }) =>
+      survey.schedule !== null &&
       cause === 'survey-level' &&
       Date.parse(opened_at) <= Date.parse(survey.made_at) + 1000 &&
       (state !== 'resolved' || Date.parse(edited_at) >= Date.parse(survey.made_at)),
@@ -147,7 +148,7 @@ function Alarm({ survey, judged }: { survey: Survey; judged: readonly Judged[] }
         <h2 id="alarm">Levels and alerts</h2>
       </header>
       {judged.length === 0 ? (
-        <EmptyState title="No figure has levels.">
+        <EmptyState title={survey.schedule === null ? 'By hand: no figure has levels.' : 'No figure has levels.'}>
           {survey.schedule !== null && <a href={`/surveys/schedules/${survey.schedule}`}>Give them in the schedule</a>}
         </EmptyState>
       ) : (
