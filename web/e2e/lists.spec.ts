@@ -8,7 +8,7 @@ const scanFile = (number: number): string => join(kYard, `yard_${String(number).
 test('a scan with its side-car is dropped on the page, stored and compared', async ({ page, daemon }) => {
   await daemon.makeYard();
   await page.goto(`${daemon.url}/scans`);
-  await expect(page.getByText('No scan is like this.')).toBeVisible();
+  await expect(page.getByText('There is no scan yet.')).toBeVisible();
   const files = await Promise.all(
     [scanFile(0), `${scanFile(0)}.json`].map(async (file) => ({
       name: file.split('/').pop() ?? '',

@@ -30,6 +30,10 @@ export const EmptyPanel = (props: { title: string; children?: ComponentChildren 
   </div>
 );
 
+/** What is said where a list has nothing, because of its filters or at all. */
+export const noneOf = (what: string, filters: readonly (string | undefined)[]): string =>
+  filters.some((filter) => filter !== undefined) ? `No ${what} is like this.` : `There is no ${what} yet.`;
+
 export function ErrorState({ problem, retry }: { problem: Problem; retry?: () => void }) {
   return (
     <div class="placeholder placeholder-bad" role="alert">

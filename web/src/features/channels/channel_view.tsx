@@ -121,7 +121,7 @@ function EditChannel({ base, newer, adopt }: EditChannelProps) {
         actions={<DeleteButton onAsk={() => setAsking(true)} />}
       />
       {asking && (
-        <DeleteDialog what={name} onClose={() => setAsking(false)} onDelete={remove}>
+        <DeleteDialog what={`the channel ${name}`} onClose={() => setAsking(false)} onDelete={remove}>
           <p>What still waits for it is dropped, and nobody is told by it any more.</p>
         </DeleteDialog>
       )}

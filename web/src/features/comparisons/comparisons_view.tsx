@@ -8,7 +8,7 @@ import { count, counted, duration, percent } from '../../lib/format';
 import { referenceInWords } from '../../lib/reference';
 import { type Column, DataTable } from '../../ui/data_table';
 import { ChoiceFilter, SiteFilter } from '../../ui/filters';
-import { EmptyPanel } from '../../ui/states';
+import { EmptyPanel, noneOf } from '../../ui/states';
 import { Ago } from '../../ui/time';
 import { ComparisonStateBadge } from './comparison_state';
 import { ScanFilter } from './scan_filter';
@@ -75,7 +75,7 @@ export function ComparisonsView() {
           </>
         }
         empty={
-          <EmptyPanel title="No comparison is like this.">
+          <EmptyPanel title={noneOf('comparison', [site, scan, state, cursor])}>
             <p>Every scan that is stored is compared by itself.</p>
           </EmptyPanel>
         }

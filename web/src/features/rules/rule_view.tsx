@@ -109,7 +109,7 @@ function DeleteRule({ rule: { id, name, site }, onClose }: { rule: Rule; onClose
     navigate(linkTo('/rules', { site }));
   };
   return (
-    <DeleteDialog what={name} onClose={onClose} onDelete={remove}>
+    <DeleteDialog what={`the rule ${name}`} onClose={onClose} onDelete={remove}>
       <p>It raises no alert any more. Alerts that it raised stay.</p>
     </DeleteDialog>
   );

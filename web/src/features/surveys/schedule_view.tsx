@@ -138,7 +138,7 @@ function DeleteSchedule({ schedule: { id, name, site }, onClose }: { schedule: S
     navigate(linkTo('/surveys', { site }));
   };
   return (
-    <DeleteDialog what={name} onClose={onClose} onDelete={remove}>
+    <DeleteDialog what={`the schedule ${name}`} onClose={onClose} onDelete={remove}>
       <p>Nothing is surveyed at its times any more. Its surveys stay.</p>
     </DeleteDialog>
   );

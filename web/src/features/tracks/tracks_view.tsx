@@ -7,7 +7,7 @@ import { historyLink, pointPlace } from '../../lib/place';
 import { KindBadge } from '../../ui/badges';
 import { type Column, DataTable } from '../../ui/data_table';
 import { ChoiceFilter, SiteFilter, TimeFilter } from '../../ui/filters';
-import { EmptyPanel } from '../../ui/states';
+import { EmptyPanel, noneOf } from '../../ui/states';
 import { Time } from '../../ui/time';
 import { lastedSeconds } from '../../ui/track_figures';
 import { TrackStateBadge } from './track_state';
@@ -81,7 +81,7 @@ export function TracksView() {
           </>
         }
         empty={
-          <EmptyPanel title="No track is like this.">
+          <EmptyPanel title={noneOf('track', [site, kind, state, from, to, cursor])}>
             <p>A track begins when a scan shows something that differs from what is normal.</p>
           </EmptyPanel>
         }

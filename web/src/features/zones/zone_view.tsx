@@ -100,7 +100,7 @@ function DeleteZone({ zone, onClose }: { zone: Zone; onClose: () => void }) {
     navigate(linkTo('/zones', { site: zone.site }));
   };
   return (
-    <DeleteDialog what={zone.name} onClose={onClose} onDelete={users?.length === 0 ? remove : undefined}>
+    <DeleteDialog what={`the zone ${zone.name}`} onClose={onClose} onDelete={users?.length === 0 ? remove : undefined}>
       {!users ? (
         <p class="muted">Asking which rules look into it …</p>
       ) : users.length === 0 ? (
