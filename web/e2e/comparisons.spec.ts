@@ -53,8 +53,8 @@ test('wrong input is shown at its field, by the form and by the daemon', async (
   await page.getByLabel('Angle (°)').fill('wide');
   await page.getByLabel('A time range').check();
   await page.getByRole('button', { name: 'Compare', exact: true }).click();
-  await expect(page.getByLabel('Angle (°)')).toHaveAccessibleName(/must be a number such as 0\.25/);
-  await expect(page.getByLabel(/^from \(Europe\/Berlin\)/)).toHaveAccessibleName(/is required/);
+  await expect(page.getByLabel('Angle (°)')).toHaveAccessibleDescription(/must be a number such as 0\.25/);
+  await expect(page.getByLabel(/^from \(Europe\/Berlin\)/)).toHaveAccessibleDescription(/is required/);
   await expect(page.getByLabel(/^from \(Europe\/Berlin\)/)).toBeFocused();
 
   troubles.expect(/422/);
@@ -62,20 +62,20 @@ test('wrong input is shown at its field, by the form and by the daemon', async (
   await page.getByLabel(/^from \(Europe\/Berlin\)/).fill('2026-03-01T09:05');
   await page.getByLabel(/^to \(Europe\/Berlin\)/).fill('2026-03-01T09:00');
   await page.getByRole('button', { name: 'Compare', exact: true }).click();
-  await expect(page.getByLabel('Angle (°)')).toHaveAccessibleName(/90/);
+  await expect(page.getByLabel('Angle (°)')).toHaveAccessibleDescription(/90/);
   await expect(page.getByLabel('Angle (°)')).toHaveAttribute('aria-invalid', 'true');
-  await expect(page.getByLabel(/^to \(Europe\/Berlin\)/)).toHaveAccessibleName(/must be later than/);
+  await expect(page.getByLabel(/^to \(Europe\/Berlin\)/)).toHaveAccessibleDescription(/must be later than/);
 
   await page.getByLabel('Angle (°)').fill('');
   await page.getByLabel('Named scans').check();
   await page.getByLabel('Numbers of scans').fill('9');
   await page.getByRole('button', { name: 'Compare', exact: true }).click();
-  await expect(page.getByLabel('Numbers of scans')).toHaveAccessibleName(/scan 9 is the one that is compared/);
+  await expect(page.getByLabel('Numbers of scans')).toHaveAccessibleDescription(/scan 9 is the one that is compared/);
 
   troubles.expect(/404/);
   await page.getByLabel('Number of the scan').fill('99');
   await page.getByLabel('Number of the scan').blur();
-  await expect(page.getByLabel('Number of the scan')).toHaveAccessibleName(/99/);
+  await expect(page.getByLabel('Number of the scan')).toHaveAccessibleDescription(/99/);
 });
 
 test('a comparison is asked for with the keyboard alone', async ({ page, yard }) => {

@@ -8,7 +8,7 @@ const scanFile = (number: number): string => join(kYard, `yard_${String(number).
 test('a scan with its side-car is dropped on the page, stored and compared', async ({ page, daemon }) => {
   await daemon.makeYard();
   await page.goto(`${daemon.url}/scans`);
-  await expect(page.getByText('No scan is like this.')).toBeVisible();
+  await expect(page.getByText('There is no scan yet.')).toBeVisible();
   const files = await Promise.all(
     [scanFile(0), `${scanFile(0)}.json`].map(async (file) => ({
       name: file.split('/').pop() ?? '',
@@ -80,11 +80,11 @@ test('a sensor can be told more about, and says what is wrong with that', async 
   await page.goto(`${yard.url}/sensors`);
   await page.getByRole('link', { name: 'yard-1' }).click();
   await expect(page.getByText('(estimated)').first()).toBeVisible();
-  await page.getByLabel('Nearest usable range (m)').fill('50');
-  await page.getByLabel('Farthest usable range (m)').fill('20');
+  await page.getByLabel('Nearest usable range').fill('50');
+  await page.getByLabel('Farthest usable range').fill('20');
   await page.getByRole('button', { name: 'Save' }).click();
   await expect(page.locator('.field-bad').first()).toBeVisible();
-  await page.getByLabel('Nearest usable range (m)').fill('1.5');
+  await page.getByLabel('Nearest usable range').fill('1.5');
   await page.getByRole('button', { name: 'Save' }).click();
   await expect(page.getByText('yard-1 was changed.')).toBeVisible();
   await expect(page.getByText(/^1\.50\sm$/)).toBeVisible();

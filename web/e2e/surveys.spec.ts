@@ -6,9 +6,13 @@ const kViews = [
   '/surveys/series?schedule=1',
   '/surveys/schedules/1',
   '/surveys/schedules/new',
+  '/surveys/compare',
+  '/surveys/runs/5',
 ];
 
 test('the nights of a site say what moved, how sure that is, and which brought nothing', async ({ page, pit }) => {
+  const asked: string[] = [];
+  page.on('request', (request) => asked.push(new URL(request.url()).pathname));
   await page.goto(`${pit.url}/surveys`);
   const rows = page.getByRole('table', { name: 'nights of pit' }).locator('tbody tr');
   await expect(rows).toHaveCount(5);
@@ -28,8 +32,12 @@ test('the nights of a site say what moved, how sure that is, and which brought n
   await expect(rows).toHaveCount(2);
   await expect(page).toHaveURL(/state=no_scans/);
   await page.getByLabel('state').selectOption('');
+  const total = await rows.nth(1).textContent();
   await page.getByLabel('zone').selectOption('bench');
-  await expect(rows.nth(1)).toContainText('m³');
+  // The zone is all that there is.
+  await expect(rows.nth(1)).toHaveText(total ?? '');
+  // The lists say it all; only the latest night is asked for by itself.
+  expect(asked.filter((path) => /surveys\/\d+/.test(path)).filter((path) => path !== '/api/v1/surveys/2')).toEqual([]);
   await rows.nth(1).getByRole('link').click();
   await expect(page.getByRole('heading', { name: 'Survey 2', exact: true })).toBeVisible();
 });
@@ -161,6 +169,86 @@ test('a schedule is made, with what is wrong at its field, paused, run and delet
   await page.getByRole('button', { name: 'Delete it' }).click();
   await expect(page.getByRole('heading', { name: 'Surveys' })).toBeVisible();
   await expect(page.getByRole('link', { name: 'weekly' })).toHaveCount(0);
+});
+
+test('two nights are compared by hand, by epochs or times, with what is wrong at its field', async ({
+  page,
+  pit,
+  troubles,
+}) => {
+  troubles.expect(/422/);
+  await page.goto(`${pit.url}/surveys`);
+  await page.getByRole('link', { name: 'Compare two nights …' }).click();
+  const side = (name: string) => page.getByRole('group', { name, exact: true });
+  await expect(side('Before').getByLabel('Epoch')).toHaveValue('2');
+  await expect(side('After').getByLabel('Epoch')).toHaveValue('3');
+
+  // What is missing is said before anything is sent, the rest by the daemon.
+  await side('Before').getByLabel('By').selectOption('window');
+  await page.getByRole('button', { name: 'Compare', exact: true }).click();
+  const from = side('Before').getByLabel('From (Australia/Perth)');
+  await expect(from).toHaveAccessibleDescription('needs a time');
+  await expect(from).toBeFocused();
+  await from.fill('2026-03-01T06:00');
+  await side('Before').getByLabel('To (Australia/Perth)').fill('2026-03-05T13:00');
+  await page.getByLabel('Cells of the models').fill('0');
+  await page.getByRole('button', { name: 'Compare', exact: true }).click();
+  await expect(page.getByLabel('Cells of the models')).toHaveAccessibleDescription(/must be 0\.02 to 100/);
+  await page.getByLabel('Cells of the models').fill('4');
+  await page.getByRole('button', { name: 'Compare', exact: true }).click();
+  await expect(side('Before').getByLabel('To (Australia/Perth)')).toHaveAccessibleDescription(/must end before/);
+  await side('Before').getByLabel('To (Australia/Perth)').fill('2026-03-01T13:00');
+  await page.getByLabel('bench').check();
+  await page.getByLabel('Density in place').fill('2.65');
+  await page.getByLabel('Steepest ground').fill('75');
+  await page.getByRole('button', { name: 'Compare', exact: true }).click();
+
+  // Its run stands there until its survey does.
+  await expect(page).toHaveURL(/\/surveys\/3$/);
+  await expect(page.getByRole('heading', { name: 'Survey 3', exact: true })).toBeVisible();
+  await expect(page.getByText('Net against epoch 4')).toBeVisible();
+  const made = await pit.get<{ ground: { survey: object } }>('/api/v1/surveys/3');
+  expect(made.ground.survey).toMatchObject({
+    zones: [1],
+    cell_m: 4,
+    density_t_per_m3: 2.65,
+    greatest_slope_deg: 75,
+  });
+  await page.getByRole('link', { name: 'Compare these two otherwise' }).click();
+  await expect(page.getByLabel('Cells of the models')).toHaveValue('4');
+  await expect(side('Before').getByLabel('Epoch')).toHaveValue('4');
+  await page.goto(`${pit.url}/surveys`);
+  await expect(page.getByRole('table', { name: 'nights of pit' }).locator('tbody tr').first()).toContainText('by hand');
+});
+
+test('a run that waits is shown as such, and is cancelled by somebody', async ({ page, pit }) => {
+  await signIn(page, 'anna');
+  // Fine ones that take their time, so that the last of them waits.
+  const survey = { cell_m: 0.06, core_spacing_m: 0.1 };
+  let run = { id: 0 };
+  for (let number = 0; number < 4; ++number) {
+    run = await pit.post<{ id: number }>('/api/v1/surveys', { site: 'pit', before: 1, after: 2, survey });
+  }
+  await page.goto(`${pit.url}/surveys`);
+  const row = page.getByRole('table', { name: 'nights of pit' }).locator('tbody tr').first();
+  await expect(row).toContainText('waiting');
+  await expect(row.getByRole('button', { name: `Cancel run ${run.id}` })).toBeVisible();
+  await row.getByRole('link').click();
+  await expect(page.getByText('It waits for its turn.')).toBeVisible();
+  await page.getByRole('button', { name: `Cancel run ${run.id}` }).click();
+  await page.getByLabel(/^Note/).fill('the wrong nights');
+  await page.getByRole('button', { name: 'Cancel it' }).click();
+  await expect(page.getByRole('region', { name: 'How far it is' })).toContainText('the wrong nights');
+  await expect(page.locator('.view-head')).toContainText('cancelled');
+  const made = await pit.get<{ state: string; why: string }>(`/api/v1/surveys/runs/${run.id}`);
+  expect(made).toMatchObject({ state: 'cancelled', why: expect.stringContaining('anna') as unknown });
+});
+
+test('a run that brought nothing says why, and cannot be cancelled any more', async ({ page, pit }) => {
+  await page.goto(`${pit.url}/surveys/runs/5`);
+  await expect(page.getByText('There are no scans in its window.').first()).toBeVisible();
+  await expect(page.getByRole('region', { name: 'Log of its run' })).toContainText('0 scans from');
+  await expect(page.getByRole('button', { name: /^Cancel/ })).toHaveCount(0);
 });
 
 for (const colorScheme of ['light', 'dark'] as const) {

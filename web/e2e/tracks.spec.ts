@@ -66,7 +66,7 @@ test('a track that is not there is said to be not there', async ({ page, yard, t
 test('tracks fit a telephone, and an empty store says what they are', async ({ page, daemon, yard }) => {
   await page.setViewportSize({ width: 390, height: 844 });
   await page.goto(`${daemon.url}/tracks`);
-  await expect(page.getByText('No track is like this.')).toBeVisible();
+  await expect(page.getByText('There is no track yet.')).toBeVisible();
   for (const view of ['/tracks', '/tracks/1']) {
     await page.goto(yard.url + view);
     await expect(page.getByRole('heading', { level: 1 })).toBeVisible();

@@ -9,7 +9,13 @@ const compressible = new Set(['.css', '.html', '.js', '.json', '.svg', '.txt']);
 
 let total = 0;
 const rows = [];
-for (const name of readdirSync(directory, { recursive: true }).sort()) {
+/** The files below a folder; by hand, as the first releases of Node 18 list one folder only. */
+const filesBelow = (folder) =>
+  readdirSync(join(directory, folder), { withFileTypes: true }).flatMap((entry) =>
+    entry.isDirectory() ? filesBelow(join(folder, entry.name)) : [join(folder, entry.name)],
+  );
+
+for (const name of filesBelow('').sort()) {
   const file = join(directory, name);
   if (!compressible.has(extname(file))) continue;
   const content = readFileSync(file);

@@ -48,6 +48,7 @@ const zones = loaded(() => import('../features/zones/views'));
 const channels = loaded(() => import('../features/channels/views'));
 const rules = loaded(() => import('../features/rules/views'));
 const surveys = loaded(() => import('../features/surveys/views'));
+const sites = loaded(() => import('../features/sites/site_view'));
 const storage = loaded(() => import('../features/storage/storage_view'));
 
 export const kViews: readonly View[] = [
@@ -67,8 +68,11 @@ export const kViews: readonly View[] = [
   view('/compare', 'Compare by hand', comparisons('CompareView')),
   view('/sensors', 'Sensors', SensorsView, { icon: 'sensor' }),
   view('/sensors/:name', 'Sensor', SensorView),
+  view('/sites/:name', 'Site', sites('SiteView')),
   view('/surveys', 'Surveys', surveys('SurveysView'), { icon: 'survey' }),
   view('/surveys/series', 'Series of surveys', surveys('SeriesView')),
+  view('/surveys/compare', 'Compare two nights', surveys('CompareNightsView')),
+  view('/surveys/runs/:id', 'Run of a survey', surveys('RunView')),
   view('/surveys/:id', 'Survey', surveys('SurveyView')),
   view('/surveys/schedules/new', 'New schedule', surveys('NewScheduleView')),
   view('/surveys/schedules/:id', 'Schedule', surveys('ScheduleView')),

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { clockOf, dayOf, ago, bytes, counted, dateTime, duration, percent, shortTime, volume } from './format';
+import { clockOf, dayOf, ago, bytes, counted, dateTime, duration, metres, percent, shortTime, volume } from './format';
 
 /** Without caring which kind of blank stands before a unit. */
 const plain = (text: string): string => text.replaceAll('\u00a0', ' ');
@@ -19,6 +19,7 @@ describe('what people read', () => {
       '2 h 05 min',
       '3 d 3 h',
     ]);
+    expect([-0.001, -0.004, -0.006].map((value) => plain(metres(value)))).toEqual(['0.00 m', '0.00 m', '-0.01 m']);
     expect(counted(1, 'scan')).toBe('1 scan');
     expect(counted(3214, 'scan')).toBe('3,214 scans');
   });
@@ -47,7 +48,7 @@ describe('what people read', () => {
   it('name a night by its day', () => {
     const now_ms = Date.parse('2026-12-31T12:00:00Z');
     expect(dayOf('2026-11-20T20:00:00Z', 'Australia/Perth', now_ms)).toBe('Sat 21 Nov');
-    expect(dayOf('2026-11-20T20:00:00Z', 'Australia/Perth', now_ms + 86_400_000)).toBe('Sat, 21 Nov 2026');
+    expect(dayOf('2026-11-20T20:00:00Z', 'Australia/Perth', now_ms + 86_400_000)).toBe('Sat 21 Nov 2026');
     expect(clockOf('2026-11-20T05:00:00Z', 'Australia/Perth')).toMatch(/^13:00 (GMT\+8|AWST)$/);
   });
 });

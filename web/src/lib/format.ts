@@ -3,14 +3,16 @@
 
 const numbers = new Map<string, Intl.NumberFormat>();
 
-function numberFormat(options: Intl.NumberFormatOptions): Intl.NumberFormat {
+/** What rounds to zero has no sign. */
+function number(value: number, options: Intl.NumberFormatOptions): string {
   const key = JSON.stringify(options);
   let format = numbers.get(key);
-  if (!format) numbers.set(key, (format = new Intl.NumberFormat('en-GB', { signDisplay: 'negative', ...options })));
-  return format;
+  if (!format) numbers.set(key, (format = new Intl.NumberFormat('en-GB', options)));
+  const text = format.format(value);
+  return /[1-9]/.test(text) ? text : text.replace('-', '');
 }
 
-export const count = (value: number): string => numberFormat({ maximumFractionDigits: 0 }).format(value);
+export const count = (value: number): string => number(value, { maximumFractionDigits: 0 });
 
 /** "1 scan", "3,214 scans". */
 export const counted = (value: number, one: string, many = `${one}s`): string =>
@@ -18,11 +20,11 @@ export const counted = (value: number, one: string, many = `${one}s`): string =>
 
 /** "1.25 m", "0.031 m". */
 export const metres = (value: number, digits = 2): string =>
-  `${numberFormat({ minimumFractionDigits: digits, maximumFractionDigits: digits }).format(value)}\u00a0m`;
+  `${number(value, { minimumFractionDigits: digits, maximumFractionDigits: digits })}\u00a0m`;
 
 /** "24.0 m²", "1,250 m²". */
 export const squareMetres = (value: number): string =>
-  `${numberFormat(value < 100 ? { minimumFractionDigits: 1, maximumFractionDigits: 1 } : { maximumFractionDigits: 0 }).format(value)}\u00a0m²`;
+  `${number(value, value < 100 ? { minimumFractionDigits: 1, maximumFractionDigits: 1 } : { maximumFractionDigits: 0 })}\u00a0m²`;
 
 /** "0.42 × 0.31 × 0.55 m". */
 export const sizeMetres = (size: readonly number[]): string =>
@@ -35,24 +37,24 @@ export const placeMetres = (place: readonly number[]): string =>
 /** Litres below a tenth of a cubic metre: "71.6 L", "1.20 m³". */
 export const volume = (cubicMetres: number): string =>
   cubicMetres < 0.1
-    ? `${numberFormat({ maximumSignificantDigits: 3 }).format(cubicMetres * 1000)}\u00a0L`
-    : `${numberFormat({ maximumSignificantDigits: 3 }).format(cubicMetres)}\u00a0m³`;
+    ? `${number(cubicMetres * 1000, { maximumSignificantDigits: 3 })}\u00a0L`
+    : `${number(cubicMetres, { maximumSignificantDigits: 3 })}\u00a0m³`;
 
 export const percent = (share: number, digits = 0): string =>
-  `${numberFormat({ minimumFractionDigits: digits, maximumFractionDigits: digits }).format(share * 100)}\u00a0%`;
+  `${number(share * 100, { minimumFractionDigits: digits, maximumFractionDigits: digits })}\u00a0%`;
 
 export const degrees = (value: number, digits = 2): string => `${value.toFixed(digits)}°`;
 
 export function bytes(value: number): string {
   const units = ['B', 'kB', 'MB', 'GB', 'TB', 'PB'];
   const power = Math.min(units.length - 1, value > 0 ? Math.floor(Math.log10(value) / 3) : 0);
-  return `${numberFormat({ maximumSignificantDigits: 3 }).format(value / 1000 ** power)}\u00a0${units[power]}`;
+  return `${number(value / 1000 ** power, { maximumSignificantDigits: 3 })}\u00a0${units[power]}`;
 }
 
 /** "340 ms", "42 s", "3 min", "2 h 05 min", "4 d 3 h". */
 export function duration(seconds: number): string {
   if (seconds < 1) return `${Math.round(seconds * 1000)}\u00a0ms`;
-  if (seconds < 60) return `${numberFormat({ maximumFractionDigits: seconds < 10 ? 1 : 0 }).format(seconds)}\u00a0s`;
+  if (seconds < 60) return `${number(seconds, { maximumFractionDigits: seconds < 10 ? 1 : 0 })}\u00a0s`;
   const minutes = Math.floor(seconds / 60);
   if (minutes < 60) return `${minutes}\u00a0min`;
   const hours = Math.floor(minutes / 60);
@@ -106,12 +108,17 @@ export function shortTime(time: string, zone: string, now_ms: number): string {
   return timeFormat(zone, { day: 'numeric', month: 'short', ...clock }).format(moment);
 }
 
-/** "Fri 20 Nov", "Fri, 20 Nov 2020": the year where it is not that of now. */
+/** "Fri 20 Nov", "Fri 20 Nov 2020": the year where it is not that of now. */
 export function dayOf(time: string, zone: string, now_ms: number): string {
-  const yearOf = (moment: Date): string => timeFormat(zone, { year: 'numeric' }).format(moment);
-  const moment = new Date(time);
-  const year = yearOf(moment) === yearOf(new Date(now_ms)) ? {} : ({ year: 'numeric' } as const);
-  return timeFormat(zone, { weekday: 'short', day: 'numeric', month: 'short', ...year }).format(moment);
+  const parts = (moment: Date): Partial<Record<string, string>> =>
+    Object.fromEntries(
+      timeFormat(zone, { weekday: 'short', day: 'numeric', month: 'short', year: 'numeric' })
+        .formatToParts(moment)
+        .map(({ type, value }) => [type, value]),
+    );
+  const { weekday, day, month, year } = parts(new Date(time));
+  // Put together here: where commas stand is not the same everywhere.
+  return `${weekday} ${day} ${month}${year === parts(new Date(now_ms))['year'] ? '' : ` ${year}`}`;
 }
 
 /** "13:00 GMT+8". */

@@ -2,19 +2,25 @@
 
 import { useState } from 'preact/hooks';
 import { Dialog } from './dialog';
+import { NoteField } from './form';
 
 export function ConfirmDialog({
   title,
   draft,
   words,
+  about,
   doIt,
+  doNot,
   onClose,
   onConfirm,
 }: {
   title: string;
   draft: string;
   words: string;
+  /** What the note is kept with. */
+  about?: string;
   doIt: string;
+  doNot?: string;
   onClose: () => void;
   onConfirm: (note: string) => void;
 }) {
@@ -28,30 +34,33 @@ export function ConfirmDialog({
         }}
       >
         <p>{words}</p>
-        <NoteField note={note} onNote={setNote} />
-        <Buttons doIt={doIt} first onClose={onClose} />
+        <NoteField label={noteLabel(about)} value={note} onValue={setNote} />
+        <Buttons doIt={doIt} doNot={doNot} first onClose={onClose} />
       </form>
     </Dialog>
   );
 }
 
-export function NoteField({ note, onNote }: { note: string; onNote: (note: string) => void }) {
-  return (
-    <label class="field">
-      Note (kept with the alert; may be left empty)
-      <textarea rows={2} maxLength={2000} value={note} onInput={(event) => onNote(event.currentTarget.value)} />
-    </label>
-  );
-}
+export const noteLabel = (about = 'the alert'): string => `Note (kept with ${about}; may be left empty)`;
 
-export function Buttons({ doIt, first, onClose }: { doIt: string; first?: boolean; onClose: () => void }) {
+export function Buttons({
+  doIt,
+  doNot = 'Cancel',
+  first,
+  onClose,
+}: {
+  doIt: string;
+  doNot?: string | undefined;
+  first?: boolean;
+  onClose: () => void;
+}) {
   return (
     <div class="actions">
       <button type="submit" class="primary" data-first={first}>
         {doIt}
       </button>
       <button type="button" onClick={onClose}>
-        Cancel
+        {doNot}
       </button>
     </div>
   );

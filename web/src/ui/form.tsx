@@ -2,7 +2,6 @@
 
 import { type ComponentChildren } from 'preact';
 import { useId } from 'preact/hooks';
-import { type Problem } from '../lib/problem';
 
 export interface FieldProps {
   label: string;
@@ -10,6 +9,9 @@ export interface FieldProps {
   hint?: string | undefined;
   /** What is wrong with it. */
   error?: string | undefined;
+  /** Something is, which is said elsewhere. */
+  wrong?: boolean | undefined;
+  class?: string | undefined;
 }
 
 /** What ties an input to its label and to its messages. */
@@ -20,13 +22,20 @@ export interface Ties {
 }
 
 /** A label over whatever is filled in, and what is said about it beneath. */
-export function Field({ label, hint, error, children }: FieldProps & { children: (ties: Ties) => ComponentChildren }) {
+export function Field({
+  label,
+  hint,
+  error,
+  wrong,
+  class: looks = '',
+  children,
+}: FieldProps & { children: (ties: Ties) => ComponentChildren }) {
   const id = useId();
   const about = `${id}-about`;
   return (
-    <div class="field">
+    <div class={`field ${looks}`}>
       <label for={id}>{label}</label>
-      {children({ id, 'aria-invalid': error !== undefined, 'aria-describedby': about })}
+      {children({ id, 'aria-invalid': wrong || error !== undefined, 'aria-describedby': about })}
       <span id={about} class={error === undefined ? 'field-hint' : 'field-bad'}>
         {error ?? hint}
       </span>
@@ -45,13 +54,21 @@ export function TextField({
   onValue,
   type = 'text',
   required,
+  max,
+  inputMode,
+  onDone,
   placeholder,
   disabled,
   first,
   ...field
 }: InputProps & {
-  type?: 'text' | 'password' | 'url' | 'email' | 'time';
+  type?: 'text' | 'password' | 'url' | 'email' | 'time' | 'datetime-local';
   required?: boolean;
+  /** The latest, of times. */
+  max?: string;
+  inputMode?: 'numeric' | 'decimal';
+  /** It was typed to its end. */
+  onDone?: () => void;
   placeholder?: string;
   /** Gets the focus when its dialog opens. */
   first?: boolean;
@@ -63,6 +80,9 @@ export function TextField({
           {...ties}
           type={type}
           required={required}
+          max={max}
+          inputMode={inputMode}
+          onChange={onDone}
           placeholder={placeholder}
           disabled={disabled}
           data-first={first}
@@ -74,6 +94,21 @@ export function TextField({
     </Field>
   );
 }
+
+/** Some lines of text. */
+export const NoteField = ({ value, onValue, ...field }: FieldProps & Pick<InputProps, 'value' | 'onValue'>) => (
+  <Field {...field}>
+    {(ties) => (
+      <textarea
+        {...ties}
+        rows={2}
+        maxLength={2000}
+        value={value}
+        onInput={(event) => onValue(event.currentTarget.value)}
+      />
+    )}
+  </Field>
+);
 
 /** A number as it is typed: a text, so that what is not finished stays as it is. */
 export function NumberField({
@@ -104,7 +139,7 @@ export function NumberField({
             value={value}
             onInput={(event) => onValue(event.currentTarget.value)}
           />
-          <span id={`${ties.id}-unit`}>{unit}</span>
+          {unit !== '' && <span id={`${ties.id}-unit`}>{unit}</span>}
         </span>
       )}
     </Field>
@@ -116,12 +151,15 @@ export function SelectField<Value extends string>({
   onValue,
   options,
   disabled,
+  first,
   ...field
 }: FieldProps & {
   value: Value;
   onValue: (value: Value) => void;
   options: readonly { readonly value: Value; readonly words: string }[];
   disabled?: boolean;
+  /** Gets the focus when its dialog opens. */
+  first?: boolean;
 }) {
   return (
     <Field {...field}>
@@ -130,6 +168,7 @@ export function SelectField<Value extends string>({
           {...ties}
           value={value}
           disabled={disabled}
+          data-first={first}
           onChange={(event) => onValue(event.currentTarget.value as Value)}
         >
           {options.map((option) => (
@@ -145,36 +184,99 @@ export function SelectField<Value extends string>({
 
 export function CheckField({
   label,
-  checked,
-  onChecked,
+  value,
+  onValue,
   hint,
-}: {
-  label: string;
-  checked: boolean;
-  onChecked: (checked: boolean) => void;
-  hint?: string;
-}) {
+  error,
+}: FieldProps & { value: boolean; onValue: (value: boolean) => void }) {
   return (
     <label class="check-field">
-      <input type="checkbox" checked={checked} onChange={(event) => onChecked(event.currentTarget.checked)} />
+      <input type="checkbox" checked={value} onChange={(event) => onValue(event.currentTarget.checked)} />
       <span>
         {label}
         {hint && <span class="field-hint"> {hint}</span>}
+        {error && <span class="field-bad"> {error}</span>}
       </span>
     </label>
   );
 }
 
-/** What the daemon said about a form, as far as no field of the form says it. */
-export function FormProblem({ problem, shown }: { problem: Problem | undefined; shown: readonly string[] }) {
-  if (!problem) return null;
-  const rest = problem.fields.filter(({ field }) => !shown.includes(field));
-  if (problem.fields.length > 0 && rest.length === 0) return null;
+/** Three numbers that belong together, as they are typed. */
+export function VectorField({
+  label,
+  error,
+  axes,
+  value,
+  onValue,
+}: FieldProps & {
+  axes: readonly string[];
+  value: readonly [string, string, string];
+  onValue: (value: readonly [string, string, string]) => void;
+}) {
+  const about = useId();
   return (
-    <p class="field-bad" role="alert">
-      {problem.fields.length === 0
-        ? `${problem.title}. ${problem.message}`
-        : rest.map(({ field, message }) => `${field} ${message}`).join('; ')}
-    </p>
+    <div class="field" role="group" aria-label={label} aria-describedby={about}>
+      <span>{label}</span>
+      <div class="field-triple">
+        {axes.map((axis, index) => (
+          <NumberField
+            key={axis}
+            label={axis}
+            unit="m"
+            value={value[index] ?? ''}
+            wrong={error !== undefined}
+            onValue={(text) => {
+              const [x, y, z] = value.map((each, at) => (at === index ? text : each));
+              onValue([x ?? '', y ?? '', z ?? '']);
+            }}
+          />
+        ))}
+      </div>
+      <span id={about} class="field-bad">
+        {error}
+      </span>
+    </div>
+  );
+}
+
+/** Some of several, each with its box. */
+export function ChoicesField<Value extends string | number>({
+  label,
+  error,
+  choices,
+  value,
+  onValue,
+}: FieldProps & {
+  choices: readonly { readonly value: Value; readonly words: string }[];
+  value: readonly Value[];
+  onValue: (value: Value[]) => void;
+}) {
+  return (
+    <div class="field" role="group" aria-label={label}>
+      <span>{label}</span>
+      <div class="actions">
+        {choices.map((choice) => (
+          <CheckField
+            key={choice.value}
+            label={choice.words}
+            value={value.includes(choice.value)}
+            onValue={(chosen) =>
+              onValue(chosen ? [...value, choice.value] : value.filter((each) => each !== choice.value))
+            }
+          />
+        ))}
+      </div>
+      {error && <span class="field-bad">{error}</span>}
+    </div>
+  );
+}
+
+/** Fields that belong together, under a title. */
+export function FormPart({ title, children }: { title: string; children: ComponentChildren }) {
+  return (
+    <fieldset class="form-part">
+      <legend>{title}</legend>
+      {children}
+    </fieldset>
   );
 }

@@ -23,6 +23,17 @@ export function EmptyState({ title, children }: { title: string; children?: Comp
   );
 }
 
+/** The same as a panel of its own. */
+export const EmptyPanel = (props: { title: string; children?: ComponentChildren }) => (
+  <div class="panel">
+    <EmptyState {...props} />
+  </div>
+);
+
+/** What is said where a list has nothing, because of its filters or at all. */
+export const noneOf = (what: string, filters: readonly (string | undefined)[]): string =>
+  filters.some((filter) => filter !== undefined) ? `No ${what} is like this.` : `There is no ${what} yet.`;
+
 export function ErrorState({ problem, retry }: { problem: Problem; retry?: () => void }) {
   return (
     <div class="placeholder placeholder-bad" role="alert">

@@ -4,7 +4,8 @@ import { store, useResource, useSelect } from '../../app/app';
 import { linkTo } from '../../app/router';
 import { address, type Schema } from '../../lib/api';
 import { SeverityBadge, StateBadge } from '../../ui/badges';
-import { NoteField } from '../../ui/confirm_dialog';
+import { noteLabel } from '../../ui/confirm_dialog';
+import { NoteField } from '../../ui/form';
 import { Icon } from '../../ui/icon';
 import { KeyHint } from '../../ui/key_hint';
 import { Loaded } from '../../ui/states';
@@ -70,7 +71,7 @@ function Actions({ alert, act }: { alert: Detail; act: Act }) {
   const again = alert.state === 'acknowledged';
   return (
     <div class="alert-actions">
-      <NoteField note={note} onNote={setNote} />
+      <NoteField label={noteLabel()} value={note} onValue={setNote} />
       <div class="actions">
         <button
           type="button"

@@ -5,8 +5,9 @@ import { useSelect } from '../../app/app';
 import { useZone } from '../../app/sites';
 import { counted, dateTime } from '../../lib/format';
 import { localOf, momentOf, nextTimeOfDay } from '../../lib/zone';
-import { Buttons, NoteField } from '../../ui/confirm_dialog';
+import { Buttons, noteLabel } from '../../ui/confirm_dialog';
 import { Dialog } from '../../ui/dialog';
+import { NoteField } from '../../ui/form';
 
 interface AskProps {
   /** How many alerts it is about, and their site when it is one. */
@@ -74,7 +75,7 @@ export function SnoozeDialog({
             </label>
           ))}
         </fieldset>
-        <NoteField note={note} onNote={setNote} />
+        <NoteField label={noteLabel()} value={note} onValue={setNote} />
         <Buttons doIt="Snooze" onClose={onClose} />
       </form>
     </Dialog>

@@ -1,12 +1,12 @@
 // Why an alert was raised: the rule as it was then, the change's figures, who saw it, and what it was compared with.
 
 import { type Schema } from '../../lib/api';
-import { count, counted, duration, percent, placeMetres, sizeMetres, volume } from '../../lib/format';
 import { historyLink, pointPlace } from '../../lib/place';
 import { KindBadge } from '../../ui/badges';
 import { Icon } from '../../ui/icon';
 import { SightStrip } from '../../ui/sight_strip';
 import { Time } from '../../ui/time';
+import { TrackFigures } from '../../ui/track_figures';
 import { ViewLink } from '../../ui/view_link';
 import { AlertPicture } from './alert_picture';
 import { ruleInWords } from './rule_words';
@@ -73,30 +73,7 @@ function Figures({ alert, track }: { alert: Schema<'Alert'>; track: Schema<'Trac
           <KindBadge kind={track.kind} />
         </dd>
       </div>
-      <div>
-        <dt>Size</dt>
-        <dd>{sizeMetres(track.size_m)}</dd>
-      </div>
-      <div>
-        <dt>Volume of its box</dt>
-        <dd>{volume(track.volume_m3)}</dd>
-      </div>
-      <div>
-        <dt>Place</dt>
-        <dd>{placeMetres(track.centroid_m)}</dd>
-      </div>
-      <div>
-        <dt>Points</dt>
-        <dd>{counted(track.points, 'point')}</dd>
-      </div>
-      <div>
-        <dt>Confidence</dt>
-        <dd
-          title={`seen free ${percent(track.confidence.free)}, supported ${percent(track.confidence.supported)}, could not tell ${percent(track.confidence.unknown)}`}
-        >
-          {percent(track.confidence.value)}
-        </dd>
-      </div>
+      <TrackFigures track={track} />
       <div>
         <dt>First seen</dt>
         <dd>
@@ -107,14 +84,6 @@ function Figures({ alert, track }: { alert: Schema<'Alert'>; track: Schema<'Trac
         <dt>Last seen</dt>
         <dd>
           <Time at={track.last_seen_at} site={alert.site} />
-        </dd>
-      </div>
-      <div>
-        <dt>Lasted</dt>
-        <dd>
-          {duration((Date.parse(track.last_seen_at) - Date.parse(track.first_seen_at)) / 1000)}, in{' '}
-          {counted(track.seen, 'scan')}
-          {track.absent > 0 && `; absent in ${count(track.absent)}`}
         </dd>
       </div>
     </dl>

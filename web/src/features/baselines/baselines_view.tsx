@@ -1,22 +1,24 @@
 // What counts as normal at each site: every version, by whom, when and why; and learning it anew.
 
 import { useState } from 'preact/hooks';
-import { loader, setQuery, showProblem, showToast, useResource, useSelect } from '../../app/app';
+import { loader, setQuery, showToast, useResource, useSelect } from '../../app/app';
+import { attempt } from '../../app/attempt';
 import { withOperator } from '../../app/operator';
-import { useSites } from '../../app/sites';
+import { useChosenSite } from '../../app/sites';
 import { address, type Schema, send } from '../../lib/api';
 import { counted, placeMetres } from '../../lib/format';
-import { Problem } from '../../lib/problem';
 import { StateBadge } from '../../ui/badges';
 import { ConfirmDialog } from '../../ui/confirm_dialog';
 import { type Column, DataTable } from '../../ui/data_table';
-import { EmptyState } from '../../ui/states';
+import { AtSite } from '../../ui/at_site';
+import { SitePicker } from '../../ui/site_picker';
+import { EmptyPanel } from '../../ui/states';
 import { Time } from '../../ui/time';
 
 type Baseline = Schema<'Baseline'>;
 
 const kColumns: readonly Column<Baseline>[] = [
-  { head: 'Version', cell: ({ version }) => version, numeric: true },
+  { head: 'Version', cell: ({ version }) => version },
   { head: 'Kind', cell: ({ kind }) => <StateBadge>{kind}</StateBadge> },
   { head: 'Made', cell: ({ made_at, site }) => <Time at={made_at} site={site} /> },
   { head: 'By', cell: ({ by }) => by },
@@ -44,9 +46,8 @@ function Entries({ baseline }: { baseline: Baseline }) {
 }
 
 export function BaselinesView() {
-  const sites = useSites();
   const query = useSelect((state) => state.location.query);
-  const site = query['site'] ?? sites[0]?.name;
+  const site = useChosenSite();
   const page = useResource(
     site === undefined
       ? undefined
@@ -59,47 +60,34 @@ export function BaselinesView() {
         <h1>Baselines</h1>
         <span class="muted">what counts as normal</span>
       </div>
-      {site === undefined ? (
-        <div class="panel">
-          <EmptyState title="There is no site yet." />
-        </div>
-      ) : (
-        <DataTable
-          caption={`versions of what is normal at ${site}`}
-          page={page}
-          columns={kColumns}
-          rowKey={({ version }) => version}
-          searchText={({ by, note, kind }) => `${by} ${note} ${kind}`}
-          filters={
-            <>
-              <select
-                aria-label="Site"
-                value={site}
-                onChange={(event) => setQuery({ cursor: undefined, site: event.currentTarget.value })}
-              >
-                {sites.map(({ name }) => (
-                  <option key={name} value={name}>
-                    {name}
-                  </option>
-                ))}
-              </select>
-              <button type="button" onClick={() => setAsking(true)}>
-                Learn anew …
-              </button>
-            </>
-          }
-          empty={
-            <div class="panel">
-              <EmptyState title="Nothing is normal yet.">
+      <AtSite site={site}>
+        {(name) => (
+          <DataTable
+            caption={`versions of what is normal at ${name}`}
+            page={page}
+            columns={kColumns}
+            rowKey={({ version }) => version}
+            searchText={({ by, note, kind }) => `${by} ${note} ${kind}`}
+            filters={
+              <>
+                <SitePicker site={name} onSite={(chosen) => setQuery({ cursor: undefined, site: chosen })} />
+                <button type="button" onClick={() => setAsking(true)}>
+                  Learn anew …
+                </button>
+              </>
+            }
+            empty={
+              <EmptyPanel title="Nothing is normal yet.">
                 <p>It is learned from the first scans of each vantage.</p>
-              </EmptyState>
-            </div>
-          }
-        />
-      )}
+              </EmptyPanel>
+            }
+          />
+        )}
+      </AtSite>
       {asking && site !== undefined && (
         <ConfirmDialog
           draft=""
+          about="the version"
           title={`Learn anew what is normal at ${site}`}
           words="Nothing is normal from now on, and the next scans of each vantage are learned. Until then nothing raises an alert there. Versions before stay in this list."
           doIt="Learn anew"
@@ -115,13 +103,10 @@ export function BaselinesView() {
 }
 
 async function learnAnew(site: string, by: string, note: string): Promise<void> {
-  try {
+  await attempt(async () => {
     const body = { by, mode: 'learn' as const, ...(note === '' ? {} : { note }) };
     await send('post', '/api/v1/baselines/{name}/accept', { path: { name: site }, body });
     showToast('good', `What is normal at ${site} is learned anew.`);
-  } catch (failure) {
-    if (!(failure instanceof Problem)) throw failure;
-    showProblem(failure);
-  }
+  });
   loader.invalidate((key) => key.startsWith('/api/v1/baselines'));
 }

@@ -2,14 +2,14 @@
 
 import './channels.css';
 import { useState } from 'preact/hooks';
-import { loader, navigate, showProblem, showToast, setQuery, useResource, useSelect } from '../../app/app';
+import { loader, navigate, setQuery, showToast, useResource, useSelect } from '../../app/app';
 import { withOperator } from '../../app/operator';
 import { address, ask, type Schema, send } from '../../lib/api';
 import { count } from '../../lib/format';
-import { Problem } from '../../lib/problem';
 import { type Resource } from '../../lib/resources';
 import { StateBadge } from '../../ui/badges';
-import { DeleteDialog } from '../../ui/delete_dialog';
+import { DeleteButton, DeleteDialog } from '../../ui/delete_dialog';
+import { useEditing } from '../../ui/edit_form';
 import { EditedElsewhere, useVersion, type Version } from '../../ui/edited_elsewhere';
 import { Icon } from '../../ui/icon';
 import { Loaded } from '../../ui/states';
@@ -80,9 +80,8 @@ const isEdited = (base: Version<Channel>, newer: Version<Channel>): boolean =>
 
 function EditChannel({ base, newer, adopt }: EditChannelProps) {
   const { id, name } = base.data;
-  const [draft, setDraft] = useState(() => draftOf(base.data));
+  const { draft, run, form } = useEditing(() => draftOf(base.data));
   const [asking, setAsking] = useState(false);
-  const { saving, problem, run } = useSaving();
   const edited = newer && isEdited(base, newer) ? newer : undefined;
   const save = (expected: Version<Channel>): void =>
     withOperator((by) => {
@@ -99,25 +98,16 @@ function EditChannel({ base, newer, adopt }: EditChannelProps) {
       });
     });
   const remove = async (): Promise<void> => {
-    try {
-      await send('delete', '/api/v1/channels/{id}', { path: { id } });
-      listsAreOld();
-      showToast('good', `The channel ${name} was deleted.`);
-      navigate('/channels');
-    } catch (failure) {
-      if (!(failure instanceof Problem)) throw failure;
-      showProblem(failure);
-      setAsking(false);
-    }
+    await send('delete', '/api/v1/channels/{id}', { path: { id } });
+    listsAreOld();
+    showToast('good', `The channel ${name} was deleted.`);
+    navigate('/channels');
   };
   return (
     <>
       <ChannelForm
-        draft={draft}
-        onDraft={setDraft}
+        {...form}
         channel={base.data}
-        problem={problem}
-        saving={saving}
         onSave={() => save(base)}
         notice={
           edited && (
@@ -128,14 +118,10 @@ function EditChannel({ base, newer, adopt }: EditChannelProps) {
             />
           )
         }
-        actions={
-          <button type="button" onClick={() => setAsking(true)}>
-            Delete …
-          </button>
-        }
+        actions={<DeleteButton onAsk={() => setAsking(true)} />}
       />
       {asking && (
-        <DeleteDialog what={name} onClose={() => setAsking(false)} onDelete={() => void remove()}>
+        <DeleteDialog what={`the channel ${name}`} onClose={() => setAsking(false)} onDelete={remove}>
           <p>What still waits for it is dropped, and nobody is told by it any more.</p>
         </DeleteDialog>
       )}
@@ -224,8 +210,7 @@ export function NewChannelView() {
 }
 
 function MakeChannel({ kind }: { kind: Schema<'ChannelKind'> }) {
-  const [draft, setDraft] = useState(() => newDraft(kind));
-  const { saving, problem, run } = useSaving();
+  const { draft, run, form } = useEditing(() => newDraft(kind));
   const make = (): void =>
     withOperator((by) => {
       void run(async () => {
@@ -237,7 +222,7 @@ function MakeChannel({ kind }: { kind: Schema<'ChannelKind'> }) {
     });
   return (
     <div class="channel-editor">
-      <ChannelForm draft={draft} onDraft={setDraft} problem={problem} saving={saving} onSave={make} />
+      <ChannelForm {...form} onSave={make} />
     </div>
   );
 }

@@ -3,7 +3,7 @@ import { useResource, useSelect } from '../../app/app';
 import { address, type Schema } from '../../lib/api';
 import { StateBadge } from '../../ui/badges';
 import { type Column, DataTable } from '../../ui/data_table';
-import { EmptyState } from '../../ui/states';
+import { EmptyPanel } from '../../ui/states';
 import { ChannelState } from './channel_state';
 import { placeOf } from './draft';
 
@@ -45,12 +45,10 @@ export function ChannelsView() {
         rowKey={({ id }) => id}
         searchText={({ name, kind, site }) => `${name} ${kind} ${site ?? ''}`}
         empty={
-          <div class="panel">
-            <EmptyState title="Nobody is told yet.">
-              <p>By a channel, alerts go to a webhook, by mail, or to an MQTT broker.</p>
-              <a href="/channels/new">Make the first one</a>
-            </EmptyState>
-          </div>
+          <EmptyPanel title="Nobody is told yet.">
+            <p>By a channel, alerts go to a webhook, by mail, or to an MQTT broker.</p>
+            <a href="/channels/new">Make the first one</a>
+          </EmptyPanel>
         }
       />
     </>

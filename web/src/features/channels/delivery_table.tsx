@@ -1,10 +1,10 @@
 import { useEffect } from 'preact/hooks';
-import { loader, showProblem, showToast, useResource } from '../../app/app';
+import { loader, showToast, useResource } from '../../app/app';
+import { attempt } from '../../app/attempt';
 import { withOperator } from '../../app/operator';
 import { useSites } from '../../app/sites';
 import { address, type Schema, send } from '../../lib/api';
 import { count } from '../../lib/format';
-import { Problem } from '../../lib/problem';
 import { StateBadge } from '../../ui/badges';
 import { type Column, DataTable } from '../../ui/data_table';
 import { EmptyState } from '../../ui/states';
@@ -17,13 +17,10 @@ const kTones = { pending: 'busy', sending: 'busy', delivered: 'good', failed: 'b
 const kAskEveryMs = 5_000;
 
 async function retry(id: number, by: string): Promise<void> {
-  try {
+  await attempt(async () => {
     await send('post', '/api/v1/deliveries/{id}/retry', { path: { id }, body: { by } });
     showToast('good', 'It waits to be sent again.');
-  } catch (failure) {
-    if (!(failure instanceof Problem)) throw failure;
-    showProblem(failure);
-  }
+  });
   loader.invalidate((key) => key.startsWith('/api/v1/deliveries'));
 }
 

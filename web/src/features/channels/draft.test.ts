@@ -1,5 +1,6 @@
-import { describe, expect, it } from 'vitest';
-import { bodyOf, draftOf, newDraft, newSecret } from './draft';
+import { webcrypto } from 'node:crypto';
+import { describe, expect, it, vi } from 'vitest';
+import { bodyOf, draftOf, faultsOf, newDraft, newSecret } from './draft';
 
 describe('a channel that is filled in', () => {
   it('sends secrets only when they are given', () => {
@@ -47,7 +48,19 @@ describe('a channel that is filled in', () => {
     });
   });
 
+  it('says what is missing for its kind', () => {
+    expect(Object.keys(faultsOf(newDraft('webhook')))).toEqual(['name', 'webhook.url']);
+    expect(Object.keys(faultsOf({ ...newDraft('mail'), name: 'guards' }))).toEqual([
+      'mail.host',
+      'mail.from',
+      'mail.to',
+    ]);
+    expect(faultsOf({ ...newDraft('mqtt'), name: 'home', host: 'broker' })).toEqual({});
+  });
+
   it('gets a secret that Standard Webhooks takes', () => {
+    // Node 18 has it, but not where browsers have it.
+    vi.stubGlobal('crypto', webcrypto);
     expect(newSecret()).toMatch(/^whsec_[A-Za-z0-9+/]{43}=$/);
     expect(newSecret()).not.toBe(newSecret());
   });

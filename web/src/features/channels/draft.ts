@@ -117,6 +117,24 @@ function ownPartOf(draft: ChannelDraft): Pick<Schema<'NewChannel'>, 'webhook' | 
   };
 }
 
+/** What is missing before anything is sent, by the daemon's own names of fields. */
+export function faultsOf({ name, kind, url, host, from, to }: ChannelDraft): Readonly<Record<string, string>> {
+  const needs: Readonly<Record<string, readonly [value: string, what: string]>> = {
+    name: [name, 'needs a name'],
+    ...(kind === 'webhook'
+      ? { 'webhook.url': [url, 'needs an address'] }
+      : { [`${kind}.host`]: [host, 'needs a server'] }),
+    ...(kind === 'mail'
+      ? { 'mail.from': [from, 'needs an address'], 'mail.to': [to, 'needs at least one address'] }
+      : {}),
+  };
+  return Object.fromEntries(
+    Object.entries(needs)
+      .filter(([, [value]]) => value.trim() === '')
+      .map(([field, [, what]]) => [field, what]),
+  );
+}
+
 /** What differs between what is there and what is filled in; a secret that is filled in, always. */
 export function differencesOf(theirs: ChannelDraft, mine: ChannelDraft): Difference[] {
   const shown: readonly (readonly [keyof ChannelDraft, string])[] = [

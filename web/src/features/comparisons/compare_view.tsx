@@ -4,7 +4,7 @@ import './comparisons.css';
 import { useResource, useSelect } from '../../app/app';
 import { useSites, useZone } from '../../app/sites';
 import { address, type Schema } from '../../lib/api';
-import { EmptyState, ErrorState, Loading } from '../../ui/states';
+import { EmptyPanel, ErrorState, Loading } from '../../ui/states';
 import { CompareForm } from './compare_form';
 import { draftLike, draftOf } from './request';
 
@@ -34,13 +34,11 @@ function Fresh({ query }: { query: Readonly<Record<string, string>> }) {
   const scan = query['scan'] ?? latest.data?.items[0]?.id;
   if (scan === undefined || sites.length === 0) {
     return (
-      <div class="panel">
-        <EmptyState title="No scan is stored yet.">
-          <p>
-            <a href="/scans">Upload the first ones</a>
-          </p>
-        </EmptyState>
-      </div>
+      <EmptyPanel title="No scan is stored yet.">
+        <p>
+          <a href="/scans">Upload the first ones</a>
+        </p>
+      </EmptyPanel>
     );
   }
   return <CompareForm initial={draftOf({ ...query, scan: String(scan) })} />;

@@ -1,10 +1,10 @@
 // One comparison: how far it is, what it was made with, and what it found.
 
 import './comparisons.css';
-import { useEffect } from 'preact/hooks';
-import { loader, useResource, useSelect } from '../../app/app';
+import { useResource, useSelect } from '../../app/app';
+import { useAskAgain } from '../../app/polling';
 import { useZone } from '../../app/sites';
-import { type Address, address, type Schema } from '../../lib/api';
+import { address, type Schema } from '../../lib/api';
 import { percent } from '../../lib/format';
 import { referenceInWords } from '../../lib/reference';
 import { ChangesTable } from '../../ui/changes_table';
@@ -23,7 +23,7 @@ const kAskProgressMs = 700;
 export function ComparisonView({ id }: { id: string }) {
   const from = address('/api/v1/comparisons/{id}', { path: { id: Number(id) } });
   const comparison = useResource(from);
-  useProgress(from, comparison.data !== undefined && isUnfinished(comparison.data));
+  useAskAgain(from, comparison.data && isUnfinished(comparison.data) ? kAskProgressMs : undefined);
   return (
     <Loaded of={comparison} what="comparison">
       {(data) => (
@@ -34,14 +34,6 @@ export function ComparisonView({ id }: { id: string }) {
       )}
     </Loaded>
   );
-}
-
-function useProgress(from: Address<Comparison>, unfinished: boolean): void {
-  useEffect(() => {
-    if (!unfinished) return;
-    const timer = setInterval(() => loader.invalidate((key) => key === from), kAskProgressMs);
-    return () => clearInterval(timer);
-  }, [from, unfinished]);
 }
 
 function Head({ comparison }: { comparison: Comparison }) {

@@ -8,7 +8,7 @@ import { count, counted, duration, percent } from '../../lib/format';
 import { referenceInWords } from '../../lib/reference';
 import { type Column, DataTable } from '../../ui/data_table';
 import { ChoiceFilter, SiteFilter } from '../../ui/filters';
-import { EmptyState } from '../../ui/states';
+import { EmptyPanel, noneOf } from '../../ui/states';
 import { Ago } from '../../ui/time';
 import { ComparisonStateBadge } from './comparison_state';
 import { ScanFilter } from './scan_filter';
@@ -75,11 +75,9 @@ export function ComparisonsView() {
           </>
         }
         empty={
-          <div class="panel">
-            <EmptyState title="No comparison is like this.">
-              <p>Every scan that is stored is compared by itself.</p>
-            </EmptyState>
-          </div>
+          <EmptyPanel title={noneOf('comparison', [site, scan, state, cursor])}>
+            <p>Every scan that is stored is compared by itself.</p>
+          </EmptyPanel>
         }
       />
     </>

@@ -2,17 +2,18 @@
 
 import { useResource } from '../../app/app';
 import { address } from '../../lib/api';
-import { FieldError, type PartProps } from './compare_form';
+import { SelectField, TextField } from '../../ui/form';
+import { type ComparePart } from './compare_form';
 import { type Field, type Grouping, kFieldGroups, kFields, type Parameters, shownValue } from './parameters';
 import { valueOf } from './parameters_of';
 
-const kGroupings: readonly { grouping: Grouping; words: string }[] = [
-  { grouping: 'consensus', words: 'Consensus – what a prior supports speaks against a change; poses are refined' },
-  { grouping: 'union', words: 'Union – changed if free in any prior, as published; nothing is weighed' },
+const kGroupings: readonly { value: Grouping; words: string }[] = [
+  { value: 'consensus', words: 'Consensus – what a prior supports speaks against a change; poses are refined' },
+  { value: 'union', words: 'Union – changed if free in any prior, as published; nothing is weighed' },
 ];
 
-export function ParameterFields(props: PartProps & { site: string | undefined }) {
-  const { draft, onChange, site } = props;
+export function ParameterFields(props: ComparePart & { site: string | undefined }) {
+  const { draft, set, field, site } = props;
   const defaults = useResource(
     site === undefined
       ? undefined
@@ -22,20 +23,8 @@ export function ParameterFields(props: PartProps & { site: string | undefined })
   return (
     <div class="panel-body compare-part">
       <div class="grouping">
-        <label class="field">
-          Grouping
-          <select
-            value={draft.grouping}
-            onChange={(event) => onChange({ grouping: event.currentTarget.value as Grouping })}
-          >
-            {kGroupings.map(({ grouping, words }) => (
-              <option key={grouping} value={grouping}>
-                {words}
-              </option>
-            ))}
-          </select>
-        </label>
-        <button type="button" disabled={own === 0} onClick={() => onChange({ texts: {} })}>
+        <SelectField label="Grouping" options={kGroupings} {...field('grouping', 'parameters.grouping')} />
+        <button type="button" disabled={own === 0} onClick={() => set({ texts: {} })}>
           All as the profile has it
         </button>
       </div>
@@ -44,8 +33,8 @@ export function ParameterFields(props: PartProps & { site: string | undefined })
           <legend>{title}</legend>
           {fields
             .filter(({ onlyConsensus }) => !onlyConsensus || draft.grouping === 'consensus')
-            .map((field) => (
-              <OneParameter key={field.key} {...props} field={field} defaults={defaults} />
+            .map((about) => (
+              <OneParameter key={about.key} {...props} about={about} defaults={defaults} />
             ))}
         </fieldset>
       ))}
@@ -55,42 +44,32 @@ export function ParameterFields(props: PartProps & { site: string | undefined })
 
 function OneParameter({
   draft,
-  errors,
-  onChange,
-  field,
+  error,
+  set,
+  about,
   defaults,
-}: PartProps & { field: Field; defaults: Parameters | undefined }) {
-  const { key, words, unit, help, kind } = field;
-  const error = errors.get(`parameters.${key}`);
+}: ComparePart & { about: Field; defaults: Parameters | undefined }) {
+  const { key, words, unit, help, kind } = about;
   const value = draft.texts[key] ?? '';
-  const set = (text: string): void => onChange({ texts: { ...draft.texts, [key]: text } });
   const usual = defaults ? shownValue(defaults, key) : '';
-  return (
-    <label class={value === '' ? 'field' : 'field own-parameter'}>
-      <span>
-        {words}
-        {unit !== '' && ` (${unit})`}
-      </span>
-      {kind === 'flag' ? (
-        <select value={value} aria-invalid={error !== undefined} onChange={(event) => set(event.currentTarget.value)}>
-          <option value="">{usual === '' ? 'as the profile' : `${usual}, as the profile`}</option>
-          <option value="yes">yes</option>
-          <option value="no">no</option>
-        </select>
-      ) : (
-        <input
-          inputMode="decimal"
-          value={value}
-          placeholder={usual}
-          aria-invalid={error !== undefined}
-          onInput={(event) => set(event.currentTarget.value)}
-        />
-      )}
-      <FieldError message={error} />
-      <small>
-        {help}
-        {value !== '' && defaults && ` Else ${valueOf(defaults, field)}.`}
-      </small>
-    </label>
+  const tied = {
+    label: unit === '' ? words : `${words} (${unit})`,
+    hint: value !== '' && defaults ? `${help} Else ${valueOf(defaults, about)}.` : help,
+    class: value === '' ? '' : 'own-parameter',
+    value,
+    error: error(`parameters.${key}`),
+    onValue: (text: string) => set({ texts: { ...draft.texts, [key]: text } }),
+  };
+  return kind === 'flag' ? (
+    <SelectField
+      {...tied}
+      options={[
+        { value: '', words: usual === '' ? 'as the profile' : `${usual}, as the profile` },
+        { value: 'yes', words: 'yes' },
+        { value: 'no', words: 'no' },
+      ]}
+    />
+  ) : (
+    <TextField {...tied} inputMode="decimal" placeholder={usual} />
   );
 }

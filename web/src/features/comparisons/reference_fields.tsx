@@ -1,7 +1,8 @@
 // Which earlier scans stand for the state of the world.
 
 import { useState } from 'preact/hooks';
-import { FieldError, type PartProps } from './compare_form';
+import { TextField } from '../../ui/form';
+import { type ComparePart } from './compare_form';
 import { scansIn } from './parameters';
 import { type ReferenceKind } from './request';
 import { ScanPicker } from './scan_picker';
@@ -17,8 +18,8 @@ const kKinds: readonly { kind: ReferenceKind; words: string; help: string }[] = 
   { kind: 'scans', words: 'Named scans', help: 'exactly these, up to 255; they may be later ones, too' },
 ];
 
-export function ReferenceFields(props: PartProps & { site: string | undefined; zone: string }) {
-  const { draft, errors, onChange } = props;
+export function ReferenceFields(props: ComparePart & { site: string | undefined; zone: string }) {
+  const { draft, error, set } = props;
   return (
     <fieldset class="panel-body compare-part">
       <legend class="visually-hidden">Reference</legend>
@@ -30,7 +31,7 @@ export function ReferenceFields(props: PartProps & { site: string | undefined; z
               name="reference"
               value={kind}
               checked={draft.kind === kind}
-              onChange={() => onChange({ kind })}
+              onChange={() => set({ kind })}
             />
             <span>
               {words} <span class="muted">– {help}</span>
@@ -40,53 +41,31 @@ export function ReferenceFields(props: PartProps & { site: string | undefined; z
           {kind === 'scans' && draft.kind === kind && <Scans {...props} />}
         </div>
       ))}
-      <FieldError message={errors.get('reference')} />
+      {error('reference') && <span class="field-bad">{error('reference')}</span>}
     </fieldset>
   );
 }
 
-function Window({ draft, errors, onChange, zone }: PartProps & { zone: string }) {
+function Window({ field, zone }: ComparePart & { zone: string }) {
   return (
     <div class="reference-more">
-      {(['from', 'to'] as const).map((name) => {
-        const error = errors.get(`reference.${name}`);
-        return (
-          <label key={name} class="field">
-            {name} ({zone})
-            <input
-              type="datetime-local"
-              value={draft[name]}
-              aria-invalid={error !== undefined}
-              onInput={(event) => onChange({ [name]: event.currentTarget.value })}
-            />
-            <FieldError message={error} />
-          </label>
-        );
-      })}
+      {(['from', 'to'] as const).map((name) => (
+        <TextField key={name} type="datetime-local" label={`${name} (${zone})`} {...field(name, `reference.${name}`)} />
+      ))}
     </div>
   );
 }
 
-function Scans({ draft, errors, onChange, site }: PartProps & { site: string | undefined }) {
+function Scans({ draft, set, field, site }: ComparePart & { site: string | undefined }) {
   const [picking, setPicking] = useState(false);
-  const error = errors.get('reference.scans');
   const add = (id: number): void => {
     const known = scansIn(draft.scans) ?? [];
-    if (!known.includes(id)) onChange({ scans: [...known, id].join(', ') });
+    if (!known.includes(id)) set({ scans: [...known, id].join(', ') });
     setPicking(false);
   };
   return (
     <div class="reference-more with-button">
-      <label class="field">
-        Numbers of scans
-        <input
-          value={draft.scans}
-          placeholder="3, 5"
-          aria-invalid={error !== undefined}
-          onInput={(event) => onChange({ scans: event.currentTarget.value })}
-        />
-        <FieldError message={error} />
-      </label>
+      <TextField label="Numbers of scans" placeholder="3, 5" {...field('scans', 'reference.scans')} />
       <button type="button" onClick={() => setPicking(true)}>
         Add …
       </button>

@@ -2,34 +2,26 @@ import { useState } from 'preact/hooks';
 import { type Schema } from '../../lib/api';
 import { counted } from '../../lib/format';
 import { type Resource } from '../../lib/resources';
+import { TextField } from '../../ui/form';
 import { Time } from '../../ui/time';
-import { FieldError, type PartProps } from './compare_form';
+import { type ComparePart } from './compare_form';
 import { ScanPicker } from './scan_picker';
 
-export interface ScanFieldProps extends PartProps {
+export interface ScanFieldProps extends ComparePart {
   scan: Resource<Schema<'Scan'>>;
   /** The number was typed to its end. */
   onAsk: () => void;
   onPick: (id: string) => void;
 }
 
-export function ScanField({ draft, errors, onChange, scan, onAsk, onPick }: ScanFieldProps) {
+export function ScanField({ field, scan, onAsk, onPick }: ScanFieldProps) {
   const [picking, setPicking] = useState(false);
-  const error = errors.get('scan') ?? (scan.problem?.status === 404 ? scan.problem.message : undefined);
+  const tied = field('scan');
+  const error = tied.error ?? (scan.problem?.status === 404 ? scan.problem.message : undefined);
   return (
     <div class="panel-body compare-part">
       <div class="with-button">
-        <label class="field">
-          Number of the scan
-          <input
-            inputMode="numeric"
-            value={draft.scan}
-            aria-invalid={error !== undefined}
-            onInput={(event) => onChange({ scan: event.currentTarget.value })}
-            onChange={onAsk}
-          />
-          <FieldError message={error} />
-        </label>
+        <TextField label="Number of the scan" inputMode="numeric" onDone={onAsk} {...tied} error={error} />
         <button type="button" onClick={() => setPicking(true)}>
           Choose …
         </button>

@@ -5,6 +5,7 @@ import { useResource } from '../../app/app';
 import { address, type Schema } from '../../lib/api';
 import { count } from '../../lib/format';
 import { Dialog } from '../../ui/dialog';
+import { SelectField } from '../../ui/form';
 import { EmptyState, Loaded } from '../../ui/states';
 import { Time } from '../../ui/time';
 
@@ -24,17 +25,13 @@ export function ScanPicker({ title, site, onClose, onPick }: ScanPickerProps) {
   const page = useResource(address('/api/v1/scans', { query: { site, sensor, limit: kMost } }));
   return (
     <Dialog title={title} onClose={onClose}>
-      <label class="field">
-        Sensor
-        <select data-first value={sensor} onChange={(event) => setSensor(event.currentTarget.value)}>
-          <option value="">any</option>
-          {sensors.map(({ name }) => (
-            <option key={name} value={name}>
-              {name}
-            </option>
-          ))}
-        </select>
-      </label>
+      <SelectField
+        label="Sensor"
+        first
+        options={[{ value: '', words: 'any' }, ...sensors.map(({ name }) => ({ value: name, words: name }))]}
+        value={sensor}
+        onValue={setSensor}
+      />
       <Loaded of={page} what="scans">
         {({ items, next }) =>
           items.length === 0 ? (

@@ -7,7 +7,7 @@ import { address, type Schema } from '../../lib/api';
 import { placeMetres, sizeMetres } from '../../lib/format';
 import { isPoint, type Place, placeOf, placeQuery } from '../../lib/place';
 import { SitePicker } from '../../ui/site_picker';
-import { EmptyState } from '../../ui/states';
+import { EmptyPanel, EmptyState } from '../../ui/states';
 import { Calendar } from './calendar';
 import { Course } from './course';
 import { PlaceForm } from './place_form';
@@ -40,11 +40,9 @@ export function HistoryView() {
         )}
       </div>
       {site === undefined ? (
-        <div class="panel">
-          <EmptyState title="There is no site yet.">
-            <p>A place can be asked as soon as scans are stored.</p>
-          </EmptyState>
-        </div>
+        <EmptyPanel title="There is no site yet.">
+          <p>A place can be asked as soon as scans are stored.</p>
+        </EmptyPanel>
       ) : (
         <OfSite key={site} site={site} />
       )}

@@ -6,6 +6,7 @@ import { kOpenAlerts } from '../../app/alert_count';
 import { kSites } from '../../app/sites';
 import { address, type Schema } from '../../lib/api';
 import { count, counted, duration, percent } from '../../lib/format';
+import { FirstScan } from '../../ui/at_site';
 import { SeverityBadge, StateBadge } from '../../ui/badges';
 import { EmptyState, Loaded } from '../../ui/states';
 import { Ago } from '../../ui/time';
@@ -95,10 +96,7 @@ function Sites() {
         items.length === 0 ? (
           <section class="panel overview-sites">
             <EmptyState title="There is no site yet.">
-              <p>
-                A site is made with its first scan:{' '}
-                <code>raywatch ingest scans/*.pcd --site yard --sensor mast --create</code>
-              </p>
+              <FirstScan of="A site" />
             </EmptyState>
           </section>
         ) : (
@@ -121,7 +119,9 @@ function SitePanel({ site, sensors }: { site: Schema<'Site'>; sensors: readonly 
   return (
     <section class="panel overview-sites" aria-label={`Site ${site.name}`}>
       <header class="panel-head">
-        <h2>{site.name}</h2>
+        <h2>
+          <a href={`/sites/${encodeURIComponent(site.name)}`}>{site.name}</a>
+        </h2>
         <span class="muted">
           {site.profile} · times in {site.time_zone}
           {site.epsg !== null && ` · EPSG:${site.epsg}`}

@@ -1,19 +1,18 @@
 // One rule: said in a sentence, edited, tried on the past, deleted. And a new one.
 
 import { useState } from 'preact/hooks';
-import { loader, navigate, showProblem, showToast, useResource, useSelect } from '../../app/app';
+import { loader, navigate, showToast, useResource, useSelect } from '../../app/app';
 import { linkTo } from '../../app/router';
-import { useSites } from '../../app/sites';
+import { useChosenSite } from '../../app/sites';
 import { address, type Schema, send } from '../../lib/api';
-import { Problem } from '../../lib/problem';
 import { type Resource } from '../../lib/resources';
 import { SeverityBadge, StateBadge } from '../../ui/badges';
-import { DeleteDialog } from '../../ui/delete_dialog';
+import { NewAtSite } from '../../ui/at_site';
+import { DeleteButton, DeleteDialog } from '../../ui/delete_dialog';
+import { useEditing } from '../../ui/edit_form';
 import { EditedElsewhere, useVersion, type Version } from '../../ui/edited_elsewhere';
-import { SitePicker } from '../../ui/site_picker';
-import { EmptyState, Loaded } from '../../ui/states';
+import { Loaded } from '../../ui/states';
 import { Ago } from '../../ui/time';
-import { useSaving } from '../../ui/use_saving';
 import { bodyOf, differencesOf, draftOf, newDraft } from './draft';
 import { RehearsalPanel } from './rehearsal_panel';
 import { RuleForm } from './rule_form';
@@ -62,13 +61,13 @@ interface EditRuleProps {
 function EditRule({ base, newer, adopt }: EditRuleProps) {
   const { id, site } = base.data;
   const zones = useZones(site);
-  const [draft, setDraft] = useState(() => draftOf(base.data));
+  const { draft, run, form } = useEditing(() => draftOf(base.data));
   const [asking, setAsking] = useState(false);
-  const { saving, problem, run } = useSaving();
-  const save = (body: Schema<'NewRule'>, etag: string | undefined): void =>
+  const mine = bodyOf(draft, site);
+  const save = (etag: string | undefined): void =>
     void run(
       async () => {
-        const answer = await send('put', '/api/v1/rules/{id}', { path: { id }, body, etag });
+        const answer = await send('put', '/api/v1/rules/{id}', { path: { id }, body: mine, etag });
         loader.put(addressOf(id), answer);
         adopt(answer);
         listsAreOld();
@@ -81,106 +80,64 @@ function EditRule({ base, newer, adopt }: EditRuleProps) {
   return (
     <div class="rule-editor">
       <RuleForm
+        {...form}
         site={site}
         zones={zones}
-        draft={draft}
-        onDraft={setDraft}
-        problem={problem}
-        saving={saving}
-        onSave={(body) => save(body, base.etag)}
+        onSave={() => save(base.etag)}
         notice={
           newer && (
             <EditedElsewhere
-              differences={differencesOf(newer.data, bodyOf(draft, site), zoneName)}
+              differences={differencesOf(newer.data, mine, zoneName)}
               onTake={() => adopt(newer)}
-              onKeep={() => save(bodyOf(draft, site), newer.etag)}
+              onKeep={() => save(newer.etag)}
             />
           )
         }
-        actions={
-          <button type="button" onClick={() => setAsking(true)}>
-            Delete …
-          </button>
-        }
+        actions={<DeleteButton onAsk={() => setAsking(true)} />}
       />
-      <RehearsalPanel site={site} host={id} isOwn rule={bodyOf(draft, site)} />
+      <RehearsalPanel site={site} host={id} isOwn rule={mine} />
       {asking && <DeleteRule rule={base.data} onClose={() => setAsking(false)} />}
     </div>
   );
 }
 
-function DeleteRule({ rule, onClose }: { rule: Rule; onClose: () => void }) {
+function DeleteRule({ rule: { id, name, site }, onClose }: { rule: Rule; onClose: () => void }) {
   const remove = async (): Promise<void> => {
-    try {
-      await send('delete', '/api/v1/rules/{id}', { path: { id: rule.id } });
-      listsAreOld();
-      showToast('good', `The rule ${rule.name} was deleted.`);
-      navigate(linkTo('/rules', { site: rule.site }));
-    } catch (failure) {
-      if (!(failure instanceof Problem)) throw failure;
-      showProblem(failure);
-      onClose();
-    }
+    await send('delete', '/api/v1/rules/{id}', { path: { id } });
+    listsAreOld();
+    showToast('good', `The rule ${name} was deleted.`);
+    navigate(linkTo('/rules', { site }));
   };
   return (
-    <DeleteDialog what={rule.name} onClose={onClose} onDelete={() => void remove()}>
+    <DeleteDialog what={`the rule ${name}`} onClose={onClose} onDelete={remove}>
       <p>It raises no alert any more. Alerts that it raised stay.</p>
     </DeleteDialog>
   );
 }
 
-export function NewRuleView() {
-  const sites = useSites();
-  const asked = useSelect((state) => state.location.query['site']);
-  const [chosen, setChosen] = useState<string | undefined>(asked);
-  const site = chosen ?? sites[0]?.name;
-  return (
-    <>
-      <div class="view-head">
-        <h1>New rule</h1>
-        {site !== undefined && (
-          <>
-            <span class="muted">at {site}</span>
-            <SitePicker site={site} onSite={setChosen} />
-          </>
-        )}
-      </div>
-      {site === undefined ? (
-        <div class="panel">
-          <EmptyState title="There is no site yet." />
-        </div>
-      ) : (
-        <MakeRule key={site} site={site} />
-      )}
-    </>
-  );
-}
+export const NewRuleView = () => (
+  <NewAtSite title="New rule" site={useChosenSite()}>
+    {(site) => <MakeRule site={site} />}
+  </NewAtSite>
+);
 
 function MakeRule({ site }: { site: string }) {
   const zones = useZones(site);
   const zone = useSelect((state) => state.location.query['zone']);
   const rules = useResource(address('/api/v1/rules', { query: { site, limit: 1 } }));
-  const [draft, setDraft] = useState({ ...newDraft, zone: zone ?? '' });
-  const { saving, problem, run } = useSaving();
-  const make = (body: Schema<'NewRule'>): void =>
+  const { draft, run, form } = useEditing({ ...newDraft, zone: zone ?? '' });
+  const mine = bodyOf(draft, site);
+  const make = (): void =>
     void run(async () => {
-      const answer = await send('post', '/api/v1/rules', { body });
+      const answer = await send('post', '/api/v1/rules', { body: mine });
       listsAreOld();
       showToast('good', `The rule ${answer.data.name} is there. It takes effect with the next scan.`);
       navigate(`/rules/${answer.data.id}`);
     });
   return (
     <div class="rule-editor">
-      <RuleForm
-        site={site}
-        zones={zones}
-        draft={draft}
-        onDraft={setDraft}
-        problem={problem}
-        saving={saving}
-        onSave={make}
-      />
-      <RehearsalPanel site={site} host={rules.data?.items[0]?.id} isOwn={false} rule={bodyOf(draft, site)} />
+      <RuleForm {...form} site={site} zones={zones} onSave={make} />
+      <RehearsalPanel site={site} host={rules.data?.items[0]?.id} isOwn={false} rule={mine} />
     </div>
   );
 }

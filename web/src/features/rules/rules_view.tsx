@@ -1,12 +1,13 @@
 import './rules.css';
 import { setQuery, useResource, useSelect } from '../../app/app';
 import { linkTo } from '../../app/router';
-import { useSites } from '../../app/sites';
+import { useChosenSite } from '../../app/sites';
 import { address, type Schema } from '../../lib/api';
 import { SeverityBadge, StateBadge } from '../../ui/badges';
 import { type Column, DataTable } from '../../ui/data_table';
 import { SitePicker } from '../../ui/site_picker';
-import { EmptyState } from '../../ui/states';
+import { AtSite } from '../../ui/at_site';
+import { EmptyPanel } from '../../ui/states';
 import { Ago } from '../../ui/time';
 import { ruleSentence } from './rule_words';
 
@@ -28,9 +29,8 @@ function useColumns(site: string | undefined): readonly Column<Rule>[] {
 }
 
 export function RulesView() {
-  const sites = useSites();
   const query = useSelect((state) => state.location.query);
-  const site = query['site'] ?? sites[0]?.name;
+  const site = useChosenSite();
   const page = useResource(
     site === undefined ? undefined : address('/api/v1/rules', { query: { site, cursor: query['cursor'], limit: 200 } }),
   );
@@ -45,27 +45,23 @@ export function RulesView() {
           New rule
         </a>
       </div>
-      {site === undefined ? (
-        <div class="panel">
-          <EmptyState title="There is no site yet." />
-        </div>
-      ) : (
-        <DataTable
-          caption={`rules of ${site}`}
-          page={page}
-          columns={columns}
-          rowKey={({ id }) => id}
-          searchText={({ name, severity }) => `${name} ${severity}`}
-          filters={<SitePicker site={site} onSite={(name) => setQuery({ site: name, cursor: undefined })} />}
-          empty={
-            <div class="panel">
-              <EmptyState title="No rule: nothing that changes raises an alert here.">
-                <a href={linkTo('/rules/new', { site })}>Make one</a>
-              </EmptyState>
-            </div>
-          }
-        />
-      )}
+      <AtSite site={site}>
+        {(name) => (
+          <DataTable
+            caption={`rules of ${name}`}
+            page={page}
+            columns={columns}
+            rowKey={({ id }) => id}
+            searchText={({ name, severity }) => `${name} ${severity}`}
+            filters={<SitePicker site={name} onSite={(chosen) => setQuery({ site: chosen, cursor: undefined })} />}
+            empty={
+              <EmptyPanel title="No rule: nothing that changes raises an alert here.">
+                <a href={linkTo('/rules/new', { site: name })}>Make one</a>
+              </EmptyPanel>
+            }
+          />
+        )}
+      </AtSite>
     </>
   );
 }

@@ -33,7 +33,9 @@ export function ScheduleField({
             error(`schedule.${index}.from`) ??
             error(`schedule.${index}.to`)
           }
-          onWindow={(changed) => onSchedule(changed ? schedule.with(index, changed) : schedule.toSpliced(index, 1))}
+          onWindow={(changed) =>
+            onSchedule(schedule.flatMap((each, at) => (at !== index ? [each] : changed ? [changed] : [])))
+          }
         />
       ))}
       <div class="actions">

@@ -1,10 +1,11 @@
 import { useState } from 'preact/hooks';
-import { loader, navigate, showProblem, showToast } from '../../app/app';
+import { loader, navigate, showToast } from '../../app/app';
+import { attempt } from '../../app/attempt';
 import { address, type Schema, send } from '../../lib/api';
-import { Problem } from '../../lib/problem';
 import { type Resource } from '../../lib/resources';
 import { StateBadge } from '../../ui/badges';
-import { Dialog } from '../../ui/dialog';
+import { DeleteDialog } from '../../ui/delete_dialog';
+import { NoteField } from '../../ui/form';
 
 type Scan = Schema<'Scan'>;
 
@@ -15,28 +16,19 @@ export function Keeping({ scan, resource }: { scan: Scan; resource: Resource<Sca
   const [note, setNote] = useState(scan.note);
   const [asking, setAsking] = useState(false);
   const edit = async (body: Schema<'ScanEdit'>): Promise<void> => {
-    try {
+    const isKept = await attempt(async () => {
       const path = { id: scan.id };
       loader.put(scanAddress(scan.id), await send('patch', '/api/v1/scans/{id}', { path, body, etag: resource.etag }));
       loader.invalidate((key) => key.startsWith('/api/v1/scans?'));
       showToast('good', 'Kept.');
-    } catch (failure) {
-      if (!(failure instanceof Problem)) throw failure;
-      showProblem(failure);
-      loader.invalidate((key) => key === scanAddress(scan.id));
-    }
+    });
+    if (!isKept) loader.invalidate((key) => key === scanAddress(scan.id));
   };
   const remove = async (): Promise<void> => {
-    setAsking(false);
-    try {
-      await send('delete', '/api/v1/scans/{id}', { path: { id: scan.id } });
-      loader.invalidate((key) => key.startsWith('/api/v1/scans?'));
-      showToast('good', `Scan ${scan.id} was deleted.`);
-      navigate('/scans');
-    } catch (failure) {
-      if (!(failure instanceof Problem)) throw failure;
-      showProblem(failure);
-    }
+    await send('delete', '/api/v1/scans/{id}', { path: { id: scan.id } });
+    loader.invalidate((key) => key.startsWith('/api/v1/scans?'));
+    showToast('good', `Scan ${scan.id} was deleted.`);
+    navigate('/scans');
   };
   return (
     <section class="panel" aria-labelledby="keeping">
@@ -51,10 +43,7 @@ export function Keeping({ scan, resource }: { scan: Scan; resource: Resource<Sca
           void edit({ note });
         }}
       >
-        <label class="field">
-          Note
-          <textarea rows={2} maxLength={2000} value={note} onInput={(event) => setNote(event.currentTarget.value)} />
-        </label>
+        <NoteField label="Note" value={note} onValue={setNote} />
         <div class="actions">
           <button type="submit" disabled={note === scan.note}>
             Keep the note
@@ -68,17 +57,9 @@ export function Keeping({ scan, resource }: { scan: Scan; resource: Resource<Sca
         </div>
       </form>
       {asking && (
-        <Dialog title={`Delete scan ${scan.id}?`} onClose={() => setAsking(false)}>
+        <DeleteDialog what={`scan ${scan.id}`} onClose={() => setAsking(false)} onDelete={remove}>
           <p>Its points, its comparisons and their changes are gone for good.</p>
-          <div class="actions">
-            <button type="button" class="primary" onClick={() => void remove()}>
-              Delete it
-            </button>
-            <button type="button" data-first onClick={() => setAsking(false)}>
-              Keep it
-            </button>
-          </div>
-        </Dialog>
+        </DeleteDialog>
       )}
     </section>
   );

@@ -4,7 +4,7 @@ import { address, type Schema } from '../../lib/api';
 import { count } from '../../lib/format';
 import { type Column, DataTable } from '../../ui/data_table';
 import { SensorFilter, SiteFilter, TimeFilter } from '../../ui/filters';
-import { EmptyState } from '../../ui/states';
+import { EmptyPanel, noneOf } from '../../ui/states';
 import { Time } from '../../ui/time';
 import { RegistrationBadge, ScanStateBadge } from './badges';
 import { UploadPanel } from './upload_panel';
@@ -49,11 +49,7 @@ export function ScansView() {
             <TimeFilter />
           </>
         }
-        empty={
-          <div class="panel">
-            <EmptyState title="No scan is like this." />
-          </div>
-        }
+        empty={<EmptyPanel title={noneOf('scan', [site, sensor, from, to, cursor])} />}
       />
     </>
   );

@@ -1,11 +1,11 @@
 // One sensor: what was given about it, what its scans showed of the rest, and the few figures that are set by hand.
 
-import { useState } from 'preact/hooks';
 import { loader, showToast, useResource } from '../../app/app';
 import { address, type Schema, send } from '../../lib/api';
 import { degrees, duration, metres, placeMetres } from '../../lib/format';
-import { Problem } from '../../lib/problem';
 import { type Resource } from '../../lib/resources';
+import { EditForm, useEditing } from '../../ui/edit_form';
+import { NumberField } from '../../ui/form';
 import { Loaded } from '../../ui/states';
 import { Time } from '../../ui/time';
 import { LatestPanorama } from '../panorama/scan_panorama';
@@ -23,7 +23,8 @@ export function SensorView({ name }: { name: string }) {
           <div class="view-head">
             <h1>{data.name}</h1>
             <span class="muted">
-              at {data.site}, known since <Time at={data.created_at} site={data.site} />
+              at <a href={`/sites/${encodeURIComponent(data.site)}`}>{data.site}</a>, known since{' '}
+              <Time at={data.created_at} site={data.site} />
             </span>
             <span class="spacer" />
             <a class="button" href={`/scans?sensor=${encodeURIComponent(data.name)}`}>
@@ -32,8 +33,8 @@ export function SensorView({ name }: { name: string }) {
           </div>
           <div class="panels">
             <Facts sensor={data} />
-            <LatestPanorama sensor={data.name} />
             <Edit key={sensor.etag} sensor={data} resource={sensor} />
+            <LatestPanorama sensor={data.name} />
           </div>
         </>
       )}
@@ -101,76 +102,51 @@ function Facts({ sensor }: { sensor: Sensor }) {
 }
 
 const kFields = [
-  { key: 'min_range_m', words: 'Nearest usable range (m)' },
-  { key: 'max_range_m', words: 'Farthest usable range (m)' },
-  { key: 'range_noise_m', words: 'Noise of the range (m)' },
-  { key: 'interval_s', words: 'A scan every (s); silent for two of these, it raises an alert' },
+  { key: 'min_range_m', label: 'Nearest usable range', unit: 'm' },
+  { key: 'max_range_m', label: 'Farthest usable range', unit: 'm' },
+  { key: 'range_noise_m', label: 'Noise of the range', unit: 'm' },
+  { key: 'interval_s', label: 'A scan every', unit: 's', hint: 'Silent for two of these, it raises an alert.' },
 ] as const;
 
 type Key = (typeof kFields)[number]['key'];
+type SensorDraft = Readonly<Record<Key, string>>;
+
+const draftOf = (sensor: Sensor): SensorDraft => ({
+  min_range_m: String(sensor.min_range_m ?? ''),
+  max_range_m: String(sensor.max_range_m ?? ''),
+  range_noise_m: String(sensor.range_noise_m ?? ''),
+  interval_s: String(sensor.interval_s ?? ''),
+});
 
 function Edit({ sensor, resource }: { sensor: Sensor; resource: Resource<Sensor> }) {
-  const [values, setValues] = useState<Record<Key, string>>(() => ({
-    min_range_m: String(sensor.min_range_m ?? ''),
-    max_range_m: String(sensor.max_range_m ?? ''),
-    range_noise_m: String(sensor.range_noise_m ?? ''),
-    interval_s: String(sensor.interval_s ?? ''),
-  }));
-  const [problem, setProblem] = useState<Problem | undefined>();
-  const save = async (): Promise<void> => {
-    setProblem(undefined);
-    const body = Object.fromEntries(kFields.map(({ key }) => [key, values[key] === '' ? null : Number(values[key])]));
-    try {
-      const path = { name: sensor.name };
-      loader.put(
-        addressOf(sensor.name),
-        await send('patch', '/api/v1/sensors/{name}', { path, body, etag: resource.etag }),
-      );
-      loader.invalidate((key) => key.startsWith('/api/v1/sensors?'));
-      showToast('good', `${sensor.name} was changed. Scans that are stored keep what was found in them.`);
-    } catch (failure) {
-      if (!(failure instanceof Problem)) throw failure;
-      setProblem(failure);
-    }
-  };
+  const { name } = sensor;
+  const { draft, run, form } = useEditing(() => draftOf(sensor));
+  const save = (): void =>
+    void run(
+      async () => {
+        const body = Object.fromEntries(kFields.map(({ key }) => [key, draft[key] === '' ? null : Number(draft[key])]));
+        const answer = await send('patch', '/api/v1/sensors/{name}', { path: { name }, body, etag: resource.etag });
+        loader.put(addressOf(name), answer);
+        loader.invalidate((key) => key.startsWith('/api/v1/sensors?'));
+        showToast('good', `${name} was changed. Scans that are stored keep what was found in them.`);
+      },
+      () => {
+        showToast('bad', `Somebody else has changed ${name} meanwhile; what is there now is shown.`);
+        loader.invalidate((key) => key === addressOf(name));
+      },
+    );
   return (
     <section class="panel" aria-labelledby="edit">
       <header class="panel-head">
         <h2 id="edit">Say more about it</h2>
       </header>
-      <form
-        class="panel-body"
-        onSubmit={(event) => {
-          event.preventDefault();
-          void save();
-        }}
-      >
-        {kFields.map(({ key, words }) => (
-          <label key={key} class="field">
-            {words}
-            <input
-              type="number"
-              step="any"
-              min={0}
-              placeholder="left to the scans"
-              value={values[key]}
-              aria-invalid={problem?.about(key) !== undefined}
-              onInput={(event) => setValues({ ...values, [key]: event.currentTarget.value })}
-            />
-            {problem?.about(key) && <span class="field-bad">{problem.about(key)}</span>}
-          </label>
-        ))}
-        {problem && problem.fields.length === 0 && (
-          <p class="field-bad" role="alert">
-            {problem.title}. {problem.message}
-          </p>
-        )}
-        <div class="actions">
-          <button type="submit" class="primary">
-            Save
-          </button>
-        </div>
-      </form>
+      <EditForm {...form} class="panel-body" onSave={save}>
+        {({ field }) =>
+          kFields.map(({ key, ...about }) => (
+            <NumberField key={key} min={0} placeholder="left to the scans" {...about} {...field(key)} />
+          ))
+        }
+      </EditForm>
     </section>
   );
 }

@@ -2,14 +2,15 @@ import { useResource, useSelect } from '../../app/app';
 import { address, type Schema } from '../../lib/api';
 import { duration, metres, placeMetres } from '../../lib/format';
 import { type Column, DataTable } from '../../ui/data_table';
+import { FirstScan } from '../../ui/at_site';
 import { SiteFilter } from '../../ui/filters';
-import { EmptyState } from '../../ui/states';
+import { EmptyPanel } from '../../ui/states';
 
 type Sensor = Schema<'Sensor'>;
 
 const kColumns: readonly Column<Sensor>[] = [
   { head: 'Sensor', cell: ({ name }) => <a href={`/sensors/${encodeURIComponent(name)}`}>{name}</a> },
-  { head: 'Site', cell: ({ site }) => site },
+  { head: 'Site', cell: ({ site }) => <a href={`/sites/${encodeURIComponent(site)}`}>{site}</a> },
   {
     head: 'Stands at',
     cell: ({ pose }) => (pose ? placeMetres(pose.position_m) : <span class="muted">each scan says where</span>),
@@ -48,14 +49,9 @@ export function SensorsView() {
         searchText={({ name, site: at }) => `${name} ${at}`}
         filters={<SiteFilter />}
         empty={
-          <div class="panel">
-            <EmptyState title="There is no sensor yet.">
-              <p>
-                One is made with its first scan:{' '}
-                <code>raywatch ingest scans/*.pcd --site yard --sensor mast --create</code>
-              </p>
-            </EmptyState>
-          </div>
+          <EmptyPanel title="There is no sensor yet.">
+            <FirstScan of="One" />
+          </EmptyPanel>
         }
       />
     </>

@@ -1,21 +1,16 @@
 // Planned work: no alert from a site, zone or sensor until a time. What still lasts then is told then.
 
 import { useState } from 'preact/hooks';
-import { loader, showProblem, showToast, useResource, useSelect } from '../../app/app';
-import { withOperator } from '../../app/operator';
-import { useSites, useZone } from '../../app/sites';
+import { showToast, useResource, useSelect } from '../../app/app';
+import { attempt } from '../../app/attempt';
 import { address, type Schema, send } from '../../lib/api';
-import { Problem } from '../../lib/problem';
-import { localOf, momentOf } from '../../lib/zone';
 import { StateBadge } from '../../ui/badges';
 import { type Column, DataTable } from '../../ui/data_table';
-import { Dialog } from '../../ui/dialog';
-import { EmptyState } from '../../ui/states';
+import { EmptyPanel } from '../../ui/states';
 import { Time } from '../../ui/time';
+import { NewSilence, silencesAreOld } from './new_silence';
 
 type Silence = Schema<'Silence'>;
-
-const stale = (): void => loader.invalidate((key) => key.startsWith('/api/v1/silences'));
 
 function useColumns(): readonly Column<Silence>[] {
   const now_ms = useSelect((state) => state.now_ms);
@@ -66,14 +61,11 @@ function useColumns(): readonly Column<Silence>[] {
 }
 
 async function end(id: number): Promise<void> {
-  try {
+  await attempt(async () => {
     await send('delete', '/api/v1/silences/{id}', { path: { id } });
     showToast('good', 'The silence was ended.');
-  } catch (failure) {
-    if (!(failure instanceof Problem)) throw failure;
-    showProblem(failure);
-  }
-  stale();
+  });
+  silencesAreOld();
 }
 
 export function SilencesView() {
@@ -97,111 +89,9 @@ export function SilencesView() {
         columns={columns}
         rowKey={({ id }) => id}
         searchText={({ site, sensor, by, note }) => `${site} ${sensor ?? ''} ${by} ${note}`}
-        empty={
-          <div class="panel">
-            <EmptyState title="Nothing is silent." />
-          </div>
-        }
+        empty={<EmptyPanel title="Nothing is silent." />}
       />
       {asking && <NewSilence onClose={() => setAsking(false)} />}
     </>
-  );
-}
-
-function NewSilence({ onClose }: { onClose: () => void }) {
-  const sites = useSites();
-  const now_ms = useSelect((state) => state.now_ms);
-  const [chosenSite, setSite] = useState<string | undefined>();
-  const site = chosenSite ?? sites[0]?.name ?? '';
-  const time_zone = useZone(site);
-  const [of, setOf] = useState(''); // "sensor:NAME", "zone:ID", or all of the site
-  const [chosenEnd, setUntil] = useState<string | undefined>();
-  const until = chosenEnd ?? localOf(new Date(now_ms + 2 * 3_600_000), time_zone);
-  const [note, setNote] = useState('');
-  const [problem, setProblem] = useState<Problem | undefined>();
-  const sensors = useResource(address('/api/v1/sensors', { query: { site, limit: 1000 } })).data?.items ?? [];
-  const zones = useResource(address('/api/v1/zones', { query: { site, limit: 1000 } })).data?.items ?? [];
-  const make = async (by: string): Promise<void> => {
-    const [kind, ...name] = of.split(':');
-    try {
-      await send('post', '/api/v1/silences', {
-        body: {
-          site,
-          by,
-          until: momentOf(until, time_zone).toISOString(),
-          ...(kind === 'sensor' ? { sensor: name.join(':') } : {}),
-          ...(kind === 'zone' ? { zone: Number(name[0]) } : {}),
-          ...(note === '' ? {} : { note }),
-        },
-      });
-      stale();
-      onClose();
-    } catch (failure) {
-      if (!(failure instanceof Problem)) throw failure;
-      setProblem(failure);
-    }
-  };
-  return (
-    <Dialog title="New silence" onClose={onClose}>
-      <form
-        onSubmit={(event) => {
-          event.preventDefault();
-          withOperator((by) => void make(by));
-        }}
-      >
-        <label class="field">
-          Site
-          <select data-first value={site} onChange={(event) => setSite(event.currentTarget.value)}>
-            {sites.map(({ name }) => (
-              <option key={name} value={name}>
-                {name}
-              </option>
-            ))}
-          </select>
-        </label>
-        <label class="field">
-          What of it
-          <select value={of} onChange={(event) => setOf(event.currentTarget.value)}>
-            <option value="">all of it</option>
-            {sensors.map(({ name }) => (
-              <option key={name} value={`sensor:${name}`}>
-                sensor {name}
-              </option>
-            ))}
-            {zones.map(({ id, name }) => (
-              <option key={id} value={`zone:${id}`}>
-                zone {name}
-              </option>
-            ))}
-          </select>
-        </label>
-        <label class="field">
-          Until ({time_zone})
-          <input
-            type="datetime-local"
-            required
-            value={until}
-            onInput={(event) => setUntil(event.currentTarget.value)}
-          />
-        </label>
-        <label class="field">
-          Why
-          <textarea rows={2} maxLength={2000} value={note} onInput={(event) => setNote(event.currentTarget.value)} />
-        </label>
-        {problem && (
-          <p class="field-bad" role="alert">
-            {problem.fields.map(({ field, message }) => `${field} ${message}`).join('; ') || problem.message}
-          </p>
-        )}
-        <div class="actions">
-          <button type="submit" class="primary">
-            Keep silent
-          </button>
-          <button type="button" onClick={onClose}>
-            Cancel
-          </button>
-        </div>
-      </form>
-    </Dialog>
   );
 }

@@ -2,24 +2,23 @@
 
 import { useState } from 'preact/hooks';
 import { loader, showToast, useResource } from '../../app/app';
-import { address, type Schema, send } from '../../lib/api';
+import { siteAt } from '../../app/sites';
+import { type Schema, send } from '../../lib/api';
 import { bytes, counted, count } from '../../lib/format';
 import { type Resource } from '../../lib/resources';
-import { FormProblem, NumberField } from '../../ui/form';
+import { EditForm, useEditing } from '../../ui/edit_form';
+import { NumberField } from '../../ui/form';
 import { Icon } from '../../ui/icon';
 import { SitePicker } from '../../ui/site_picker';
 import { Loaded } from '../../ui/states';
 import { Time } from '../../ui/time';
-import { useSaving } from '../../ui/use_saving';
 import { draftOf, type LimitsDraft, limitsOf } from './limits';
 
 type Site = Schema<'Site'>;
 type Preview = NonNullable<Schema<'RetentionPreview'>['items']>[number];
 
-const addressOf = (name: string) => address('/api/v1/sites/{name}', { path: { name } });
-
 export function RetentionPanel({ site, onSite }: { site: string; onSite: (site: string) => void }) {
-  const resource = useResource(addressOf(site));
+  const resource = useResource(siteAt(site));
   return (
     <section class="panel" aria-labelledby="retention">
       <header class="panel-head">
@@ -47,9 +46,8 @@ const kFields = [
 ] as const;
 
 function RetentionForm({ site, resource }: { site: Site; resource: Resource<Site> }) {
-  const [draft, setDraft] = useState<LimitsDraft>(() => draftOf(site.retention));
+  const { draft, run, form } = useEditing<LimitsDraft>(() => draftOf(site.retention));
   const [preview, setPreview] = useState<Preview | undefined>();
-  const { saving, problem, run } = useSaving();
   const look = (): void =>
     void run(async () => {
       const body = { site: site.name, ...limitsOf(draft) };
@@ -60,57 +58,60 @@ function RetentionForm({ site, resource }: { site: Site; resource: Resource<Site
     void run(async () => {
       const body = { retention: limitsOf(draft) };
       const path = { name: site.name };
-      loader.put(
-        addressOf(site.name),
-        await send('patch', '/api/v1/sites/{name}', { path, body, etag: resource.etag }),
-      );
+      loader.put(siteAt(site.name), await send('patch', '/api/v1/sites/{name}', { path, body, etag: resource.etag }));
       loader.invalidate((key) => key.startsWith('/api/v1/sites?') || key.startsWith('/api/v1/storage'));
       showToast('good', `What is kept of ${site.name} was changed.`);
     }, conflict);
   const conflict = (): void => {
     showToast('bad', `Somebody else has changed ${site.name} meanwhile; what is there now is shown.`);
-    loader.invalidate((key) => key === addressOf(site.name));
+    loader.invalidate((key) => key === siteAt(site.name));
   };
   return (
-    <form
-      class="panel-body"
-      noValidate
-      onSubmit={(event) => {
-        event.preventDefault();
-        save();
-      }}
-    >
-      <p class="muted">
-        An empty field is as configured for all sites, and 0 no such limit here. What is pinned, normal now, behind an
-        open alert, or the first scan of a place is never deleted.
-      </p>
-      {kFields.map(({ key, field, label, unit, step }) => (
-        <NumberField
-          key={key}
-          label={label}
-          unit={unit}
-          min={0}
-          step={step}
-          placeholder="as configured"
-          value={draft[key]}
-          error={problem?.about(field) ?? problem?.about(`retention.${field}`)}
-          onValue={(value) => {
-            setPreview(undefined);
-            setDraft({ ...draft, [key]: value });
-          }}
-        />
-      ))}
-      <FormProblem problem={problem} shown={kFields.flatMap(({ field }) => [field, `retention.${field}`])} />
-      <div class="actions">
-        <button type="button" disabled={saving} onClick={look}>
-          Show what would go
-        </button>
-        <button type="submit" class="primary" disabled={saving}>
-          Save
-        </button>
-      </div>
-      {preview && <PreviewNotice preview={preview} />}
-    </form>
+    <>
+      <EditForm
+        {...form}
+        class="panel-body"
+        notice={
+          <p class="muted">
+            An empty field is as configured for all sites, and 0 no such limit here. What is pinned, normal now, behind
+            an open alert, or the first scan of a place is never deleted.
+          </p>
+        }
+        onDraft={(changed) => {
+          setPreview(undefined);
+          form.onDraft(changed);
+        }}
+        onSave={save}
+        actions={
+          <button type="button" disabled={form.saving} onClick={look}>
+            Show what would go
+          </button>
+        }
+      >
+        {(part) =>
+          kFields.map(({ key, field, label, unit, step }) => {
+            const tied = part.field(key, field);
+            return (
+              <NumberField
+                key={key}
+                label={label}
+                unit={unit}
+                min={0}
+                step={step}
+                placeholder="as configured"
+                {...tied}
+                error={tied.error ?? part.error(`retention.${field}`)}
+              />
+            );
+          })
+        }
+      </EditForm>
+      {preview && (
+        <div class="panel-body">
+          <PreviewNotice preview={preview} />
+        </div>
+      )}
+    </>
   );
 }
 

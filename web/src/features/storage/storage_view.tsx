@@ -1,8 +1,8 @@
 // What is stored, how much room is left and for how long; what is kept, and what was deleted.
 
 import './storage.css';
-import { useEffect } from 'preact/hooks';
-import { loader, setQuery, useResource, useSelect } from '../../app/app';
+import { setQuery, useResource, useSelect } from '../../app/app';
+import { useAskAgain } from '../../app/polling';
 import { useSites } from '../../app/sites';
 import { address, type Schema } from '../../lib/api';
 import { bytes, count, counted, percent } from '../../lib/format';
@@ -24,10 +24,7 @@ export function StorageView() {
   const query = useSelect((state) => state.location.query);
   const site = query['site'] ?? sites[0]?.name;
   const storage = useResource(kStorage);
-  useEffect(() => {
-    const timer = setInterval(() => loader.invalidate((key) => key === kStorage), kAskEveryMs);
-    return () => clearInterval(timer);
-  }, []);
+  useAskAgain(kStorage, kAskEveryMs);
   return (
     <>
       <div class="view-head">

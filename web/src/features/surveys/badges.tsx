@@ -31,6 +31,11 @@ export function NightTime({ at, site }: { at: string; site: string }) {
 
 /** In which coordinates the results of a site are. */
 export function Coordinates({ site }: { site: string }) {
-  const epsg = useSites().find(({ name }) => name === site)?.epsg;
-  return <span class="muted">coordinates: {epsg ? `EPSG:${epsg}` : `those of ${site}`}, in metres</span>;
+  const known = useSites().find(({ name }) => name === site);
+  const words = known?.mine_grid ? 'a local mine grid' : known?.epsg ? `EPSG:${known.epsg}` : `those of ${site}`;
+  return (
+    <span class="muted">
+      coordinates: <a href={`/sites/${encodeURIComponent(site)}`}>{words}</a>, in metres
+    </span>
+  );
 }

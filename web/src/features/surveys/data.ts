@@ -1,7 +1,6 @@
 // What the views of surveys ask for.
 
 import { loader, useResource, useResources } from '../../app/app';
-import { useSites } from '../../app/sites';
 import { address, type Schema } from '../../lib/api';
 import { type Figure, type Level } from './words';
 
@@ -14,13 +13,15 @@ type Thresholds = Schema<'Thresholds'>;
 export const surveyAt = (id: number) => address('/api/v1/surveys/{id}', { path: { id } });
 export const volumesAt = (id: number) => address('/api/v1/surveys/{id}/volumes', { path: { id } });
 
-export const surveysAreOld = (): void => loader.invalidate((key) => /^\/api\/v1\/(surveys|schedules|epochs)/.test(key));
+/** What came of it, else what is known of it. */
+export const linkToRun = ({ id, survey }: Run): string =>
+  survey === null ? `/surveys/runs/${id}` : `/surveys/${survey}`;
 
-/** The site of the link; else the first that is there to be surveyed, else the first. */
-export function useSurveyedSite(asked: string | undefined): string | undefined {
-  const sites = useSites();
-  return asked ?? (sites.find(({ profile }) => profile === 'survey') ?? sites[0])?.name;
-}
+export const isUnfinished = ({ state }: Run): boolean => state === 'queued' || state === 'running';
+/** The end of a run is told by an event; that it began is asked for this often. */
+export const kAskRunsMs = 1500;
+
+export const surveysAreOld = (): void => loader.invalidate((key) => /^\/api\/v1\/(surveys|schedules|epochs)/.test(key));
 
 export const useSchedules = (site: string | undefined) =>
   useResource(site === undefined ? undefined : address('/api/v1/schedules', { query: { site, limit: 200 } }));

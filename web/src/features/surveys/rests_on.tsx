@@ -2,15 +2,16 @@
 
 import { useState } from 'preact/hooks';
 import { loader, showToast, useResource } from '../../app/app';
+import { linkTo } from '../../app/router';
+import { attempt } from '../../app/attempt';
 import { withOperator } from '../../app/operator';
 import { address, type Schema, send } from '../../lib/api';
 import { count, degrees, metres, percent } from '../../lib/format';
 import { StateBadge } from '../../ui/badges';
-import { Dialog } from '../../ui/dialog';
-import { FormProblem, TextField } from '../../ui/form';
+import { ConfirmDialog } from '../../ui/confirm_dialog';
 import { Time } from '../../ui/time';
-import { useSaving } from '../../ui/use_saving';
-import { referenceInWords } from './words';
+import { RunLog } from './run_log';
+import { referenceInWords, referenceOf } from './words';
 
 type Survey = Schema<'SurveyDetail'>;
 type Scan = Schema<'SurveyedScan'>;
@@ -123,10 +124,11 @@ function ScanTable({ site, scans, caption }: { site: string; scans: readonly Sca
   );
 }
 
-function Settings({ survey: { ground, made_at, site } }: { survey: Survey }) {
+function Settings({ survey: whole }: { survey: Survey }) {
+  const { id, ground, made_at, site } = whole;
   const { survey } = ground;
   const facts: readonly (readonly [string, string])[] = [
-    ['Compared with', referenceInWords(survey.reference)],
+    ['Compared with', referenceInWords(referenceOf(whole))],
     ['Cells of the models', metres(survey.cell_m)],
     ['Core points of M3C2', `${metres(survey.core_spacing_m)} apart`],
     ['Registration error', `${metres(ground.registration_m, 3)} (M3C2)`],
@@ -140,7 +142,11 @@ function Settings({ survey: { ground, made_at, site } }: { survey: Survey }) {
   ];
   return (
     <section>
-      <h3>Settings</h3>
+      <div class="actions">
+        <h3>Settings</h3>
+        <span class="spacer" />
+        <a href={linkTo('/surveys/compare', { site, like: id })}>Compare these two otherwise</a>
+      </div>
       <dl class="figures">
         {facts.map(([name, value]) => (
           <div key={name}>
@@ -161,62 +167,30 @@ function Settings({ survey: { ground, made_at, site } }: { survey: Survey }) {
 
 function Log({ survey }: { survey: Survey }) {
   const run = useResource(address('/api/v1/surveys/runs/{id}', { path: { id: survey.run } })).data;
-  return (
-    <section class="panel panel-wide survey-log" aria-labelledby="log">
-      <header class="panel-head">
-        <h2 id="log">Log of its run</h2>
-        <span class="muted">run {survey.run}</span>
-      </header>
-      <ol class="panel-body">
-        {run?.log.map(({ at, text }, index) => (
-          <li key={index}>
-            <span class="muted">
-              <Time at={at} site={survey.site} />
-            </span>
-            <span>{text}</span>
-          </li>
-        ))}
-      </ol>
-    </section>
-  );
+  return run ? <RunLog run={run} /> : null;
 }
 
 /** Schedules that compare with what is accepted compare with the latest accepted epoch. */
 function AcceptDialog({ epoch, onClose }: { epoch: number; onClose: () => void }) {
-  const [note, setNote] = useState('');
-  const { saving, problem, run } = useSaving();
-  const accept = (): void =>
-    withOperator((by) => {
-      void run(async () => {
-        const answer = await send('post', '/api/v1/epochs/{id}/accept', { path: { id: epoch }, body: { by, note } });
-        loader.put(epochAt(epoch), { data: answer.data, etag: undefined });
-        loader.invalidate((key) => key.startsWith('/api/v1/epochs'));
-        showToast('good', `Epoch ${epoch} is accepted.`);
-        onClose();
-      });
+  const accept = (by: string, note: string): Promise<boolean> =>
+    attempt(async () => {
+      const answer = await send('post', '/api/v1/epochs/{id}/accept', { path: { id: epoch }, body: { by, note } });
+      loader.put(epochAt(epoch), { data: answer.data, etag: undefined });
+      loader.invalidate((key) => key.startsWith('/api/v1/epochs'));
+      showToast('good', `Epoch ${epoch} is accepted.`);
     });
   return (
-    <Dialog title={`Accept epoch ${epoch}?`} onClose={onClose}>
-      <form
-        onSubmit={(event) => {
-          event.preventDefault();
-          accept();
-        }}
-      >
-        <p>
-          Schedules that compare with the latest accepted state compare with this one from now on. Its scans are kept.
-        </p>
-        <TextField label="Note" first value={note} placeholder="may be left empty" onValue={setNote} />
-        <FormProblem problem={problem} shown={[]} />
-        <div class="actions">
-          <button type="submit" class="primary" disabled={saving}>
-            Accept it
-          </button>
-          <button type="button" onClick={onClose}>
-            Cancel
-          </button>
-        </div>
-      </form>
-    </Dialog>
+    <ConfirmDialog
+      title={`Accept epoch ${epoch}?`}
+      draft=""
+      about="the epoch"
+      words="Schedules that compare with the latest accepted state compare with this one from now on. Its scans are kept."
+      doIt="Accept it"
+      onClose={onClose}
+      onConfirm={(note) => {
+        onClose();
+        withOperator((by) => void accept(by, note));
+      }}
+    />
   );
 }

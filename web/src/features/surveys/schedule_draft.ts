@@ -3,6 +3,14 @@
 import type { Schema } from '../../lib/api';
 import type { Difference } from '../../ui/edited_elsewhere';
 import { cronInWords } from './cron_words';
+import {
+  type DefinitionDraft,
+  definitionDraftOf,
+  definitionOf,
+  newDefinition,
+  numberOrNull,
+  numberText,
+} from './definition_draft';
 import { type Figure, kFigures, referenceInWords } from './words';
 
 type Schedule = Schema<'SurveySchedule'>;
@@ -20,7 +28,7 @@ export interface ThresholdDraft {
   readonly clear_share: number;
 }
 
-export interface ScheduleDraft {
+export interface ScheduleDraft extends DefinitionDraft {
   readonly name: string;
   readonly enabled: boolean;
   readonly cron: string;
@@ -30,11 +38,6 @@ export interface ScheduleDraft {
   readonly grace_min: string;
   readonly required_sensors: readonly string[];
   readonly catch_up: Schedule['catch_up'];
-  readonly zones: readonly number[];
-  readonly cell_m: string;
-  readonly core_spacing_m: string;
-  readonly density: string;
-  readonly greatest_slope_deg: string;
   readonly policy: Policy;
   readonly epoch: string;
   readonly days: string;
@@ -57,6 +60,7 @@ export const newThreshold: ThresholdDraft = {
 
 /** With the daemon's own defaults, but for the name. */
 export const newDraft: ScheduleDraft = {
+  ...newDefinition,
   name: 'nightly',
   enabled: true,
   cron: '30 5 * * *',
@@ -65,11 +69,6 @@ export const newDraft: ScheduleDraft = {
   grace_min: '10',
   required_sensors: [],
   catch_up: 'latest',
-  zones: [],
-  cell_m: '1',
-  core_spacing_m: '1',
-  density: '',
-  greatest_slope_deg: '',
   policy: 'previous',
   epoch: '',
   days: '7',
@@ -79,42 +78,33 @@ export const newDraft: ScheduleDraft = {
   thresholds: [],
 };
 
-/** Without the digits that only come of counting in twos. */
-const text = (value: number | null): string => (value === null ? '' : String(Number(value.toPrecision(9))));
-
 export const draftOf = ({ survey, ...schedule }: Schedule): ScheduleDraft => ({
   name: schedule.name,
   enabled: schedule.enabled,
   cron: schedule.cron,
   time_zone: schedule.time_zone,
-  window_h: text(schedule.window_s / 3600),
-  grace_min: text(schedule.grace_s / 60),
+  window_h: numberText(schedule.window_s / 3600),
+  grace_min: numberText(schedule.grace_s / 60),
   required_sensors: schedule.required_sensors,
   catch_up: schedule.catch_up,
-  zones: survey.zones,
-  cell_m: text(survey.cell_m),
-  core_spacing_m: text(survey.core_spacing_m),
-  density: text(survey.density_t_per_m3),
-  greatest_slope_deg: text(survey.greatest_slope_deg),
+  ...definitionDraftOf(survey),
   policy: survey.reference.policy,
-  epoch: text(survey.reference.epoch),
-  days: text(survey.reference.days ?? 7),
-  residual_mm: text(survey.tolerance.residual_m * 1000),
-  position_mm: text(survey.tolerance.position_m * 1000),
-  angle_deg: text(survey.tolerance.angle_deg),
+  epoch: numberText(survey.reference.epoch),
+  days: numberText(survey.reference.days ?? 7),
+  residual_mm: numberText(survey.tolerance.residual_m * 1000),
+  position_mm: numberText(survey.tolerance.position_m * 1000),
+  angle_deg: numberText(survey.tolerance.angle_deg),
   thresholds: survey.thresholds.map((each) => ({
     figure: each.figure,
-    zone: text(each.zone),
-    yellow: text(each.yellow),
-    orange: text(each.orange),
-    red: text(each.red),
-    raise_after: text(each.raise_after),
-    clear_after: text(each.clear_after),
+    zone: numberText(each.zone),
+    yellow: numberText(each.yellow),
+    orange: numberText(each.orange),
+    red: numberText(each.red),
+    raise_after: numberText(each.raise_after),
+    clear_after: numberText(each.clear_after),
     clear_share: each.clear_share,
   })),
 });
-
-const numberOrNull = (value: string): number | null => (value.trim() === '' ? null : Number(value));
 
 /** What the form does not show stays as it is in `from`. */
 export function bodyOf(
@@ -135,11 +125,7 @@ export function bodyOf(
     required_vantages: from.required_vantages ?? [],
     catch_up: draft.catch_up,
     survey: {
-      zones: [...draft.zones],
-      cell_m: Number(draft.cell_m),
-      core_spacing_m: Number(draft.core_spacing_m),
-      density_t_per_m3: numberOrNull(draft.density),
-      greatest_slope_deg: numberOrNull(draft.greatest_slope_deg),
+      ...definitionOf(draft),
       reference: {
         policy,
         ...(policy === 'fixed' ? { epoch: numberOrNull(draft.epoch) } : {}),

@@ -1,11 +1,11 @@
 // When a site is surveyed, in words, with what was missed, and the buttons that run and pause it.
 
 import { useState } from 'preact/hooks';
-import { showProblem, showToast, useResource, useSelect } from '../../app/app';
+import { showToast, useResource, useSelect } from '../../app/app';
+import { attempt } from '../../app/attempt';
 import { linkTo } from '../../app/router';
 import { address, ask, type Schema, send } from '../../lib/api';
 import { clockOf, counted, dayOf } from '../../lib/format';
-import { Problem } from '../../lib/problem';
 import { type Resource } from '../../lib/resources';
 import { StateBadge } from '../../ui/badges';
 import { EmptyState, Loaded } from '../../ui/states';
@@ -113,16 +113,9 @@ export function ScheduleActions({ schedule, onItsPage }: { schedule: Schedule; o
   const { id, name, site, enabled } = schedule;
   const doing = async (act: () => Promise<unknown>, done: string): Promise<void> => {
     setBusy(true);
-    try {
-      await act();
-      showToast('good', done);
-    } catch (failure) {
-      if (!(failure instanceof Problem)) throw failure;
-      showProblem(failure);
-    } finally {
-      setBusy(false);
-      surveysAreOld();
-    }
+    if (await attempt(act)) showToast('good', done);
+    setBusy(false);
+    surveysAreOld();
   };
   const run = () => send('post', '/api/v1/schedules/{id}/run', { path: { id } });
   const turn = async () => {

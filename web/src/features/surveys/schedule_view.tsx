@@ -1,25 +1,27 @@
 // One schedule: edited, run, paused, deleted, with what became of its runs. And a new one.
 
+import './schedules.css';
 import './surveys.css';
 import { useState } from 'preact/hooks';
-import { loader, navigate, setQuery, showProblem, showToast, useResource, useSelect } from '../../app/app';
+import { loader, navigate, showToast, useResource } from '../../app/app';
+import { useAskAgain } from '../../app/polling';
 import { linkTo } from '../../app/router';
-import { useZone } from '../../app/sites';
+import { useChosenSite, useZone } from '../../app/sites';
 import { address, send } from '../../lib/api';
-import { Problem } from '../../lib/problem';
 import { type Resource } from '../../lib/resources';
 import { localOf, momentOf } from '../../lib/zone';
 import { StateBadge } from '../../ui/badges';
-import { DeleteDialog } from '../../ui/delete_dialog';
+import { NewAtSite } from '../../ui/at_site';
+import { DeleteButton, DeleteDialog } from '../../ui/delete_dialog';
+import { useEditing } from '../../ui/edit_form';
 import { EditedElsewhere, useVersion, type Version } from '../../ui/edited_elsewhere';
-import { Field } from '../../ui/form';
-import { SitePicker } from '../../ui/site_picker';
+import { TextField } from '../../ui/form';
 import { EmptyState, Loaded } from '../../ui/states';
 import { Ago, Time } from '../../ui/time';
-import { useSaving } from '../../ui/use_saving';
 import { RunBadge } from './badges';
+import { CancelRun } from './cancel_run';
 import { cronInWords } from './cron_words';
-import { type Schedule, surveysAreOld, useSurveyedSite } from './data';
+import { isUnfinished, kAskRunsMs, linkToRun, type Schedule, surveysAreOld } from './data';
 import { bodyOf, differencesOf, draftOf, newDraft } from './schedule_draft';
 import { ScheduleForm } from './schedule_form';
 import { ScheduleActions } from './schedule_list';
@@ -91,9 +93,8 @@ function EditSchedule({
   adopt: (version: Version<Schedule>) => void;
 }) {
   const { id, site } = base.data;
-  const [draft, setDraft] = useState(() => draftOf(base.data));
+  const { draft, run, form } = useEditing(() => draftOf(base.data));
   const [asking, setAsking] = useState(false);
-  const { saving, problem, run } = useSaving();
   const save = (etag: string | undefined): void =>
     void run(
       async () => {
@@ -109,11 +110,8 @@ function EditSchedule({
   return (
     <>
       <ScheduleForm
+        {...form}
         site={site}
-        draft={draft}
-        onDraft={setDraft}
-        problem={problem}
-        saving={saving}
         onSave={() => save(newer ? base.etag : latest)}
         notice={
           newer && (
@@ -124,11 +122,7 @@ function EditSchedule({
             />
           )
         }
-        actions={
-          <button type="button" onClick={() => setAsking(true)}>
-            Delete …
-          </button>
-        }
+        actions={<DeleteButton onAsk={() => setAsking(true)} />}
       />
       {asking && <DeleteSchedule schedule={base.data} onClose={() => setAsking(false)} />}
     </>
@@ -137,20 +131,14 @@ function EditSchedule({
 
 function DeleteSchedule({ schedule: { id, name, site }, onClose }: { schedule: Schedule; onClose: () => void }) {
   const remove = async (): Promise<void> => {
-    try {
-      await send('delete', '/api/v1/schedules/{id}', { path: { id } });
-      // Not what is asked of it here, which is gone.
-      loader.invalidate((key) => key.startsWith('/api/v1/schedules?'));
-      showToast('good', `The schedule ${name} was deleted.`);
-      navigate(linkTo('/surveys', { site }));
-    } catch (failure) {
-      if (!(failure instanceof Problem)) throw failure;
-      showProblem(failure);
-      onClose();
-    }
+    await send('delete', '/api/v1/schedules/{id}', { path: { id } });
+    // Not what is asked of it here, which is gone.
+    loader.invalidate((key) => key.startsWith('/api/v1/schedules?'));
+    showToast('good', `The schedule ${name} was deleted.`);
+    navigate(linkTo('/surveys', { site }));
   };
   return (
-    <DeleteDialog what={name} onClose={onClose} onDelete={() => void remove()}>
+    <DeleteDialog what={`the schedule ${name}`} onClose={onClose} onDelete={remove}>
       <p>Nothing is surveyed at its times any more. Its surveys stay.</p>
     </DeleteDialog>
   );
@@ -158,7 +146,9 @@ function DeleteSchedule({ schedule: { id, name, site }, onClose }: { schedule: S
 
 /** The latest runs, also those without a result. */
 function Runs({ schedule: { id, site } }: { schedule: Schedule }) {
-  const page = useResource(address('/api/v1/schedules/{id}/runs', { path: { id }, query: { limit: 10 } }));
+  const from = address('/api/v1/schedules/{id}/runs', { path: { id }, query: { limit: 10 } });
+  const page = useResource(from);
+  useAskAgain(from, page.data?.items.some(isUnfinished) ? kAskRunsMs : undefined);
   return (
     <section class="panel" aria-labelledby="runs">
       <header class="panel-head">
@@ -176,14 +166,11 @@ function Runs({ schedule: { id, site } }: { schedule: Schedule }) {
                 <li key={run.id}>
                   <RunBadge state={run.state} />
                   <span>
-                    {run.survey === null ? (
+                    <a href={linkToRun(run)}>
                       <Time at={run.due_at} site={site} />
-                    ) : (
-                      <a href={`/surveys/${run.survey}`}>
-                        <Time at={run.due_at} site={site} />
-                      </a>
-                    )}
+                    </a>{' '}
                     {run.why !== '' && <span class="survey-under">{run.why}</span>}
+                    <CancelRun run={run} />
                   </span>
                 </li>
               ))}
@@ -195,36 +182,16 @@ function Runs({ schedule: { id, site } }: { schedule: Schedule }) {
   );
 }
 
-export function NewScheduleView() {
-  const asked = useSelect((state) => state.location.query['site']);
-  const site = useSurveyedSite(asked);
-  return (
-    <>
-      <div class="view-head">
-        <h1>New schedule</h1>
-        {site !== undefined && (
-          <>
-            <span class="muted">of surveys at {site}</span>
-            <SitePicker site={site} onSite={(name) => setQuery({ site: name }, { replace: true })} />
-          </>
-        )}
-      </div>
-      {site === undefined ? (
-        <div class="panel">
-          <EmptyState title="There is no site yet." />
-        </div>
-      ) : (
-        <MakeSchedule key={site} site={site} />
-      )}
-    </>
-  );
-}
+export const NewScheduleView = () => (
+  <NewAtSite title="New schedule" words="of surveys at" site={useChosenSite('survey')}>
+    {(site) => <MakeSchedule site={site} />}
+  </NewAtSite>
+);
 
 function MakeSchedule({ site }: { site: string }) {
   const zone = useZone(site);
-  const [draft, setDraft] = useState(newDraft);
+  const { draft, problem, run, form } = useEditing(newDraft);
   const [since, setSince] = useState('');
-  const { saving, problem, run } = useSaving();
   const make = (): void =>
     void run(async () => {
       const from = since === '' ? {} : { since: momentOf(since, zone).toISOString() };
@@ -236,28 +203,19 @@ function MakeSchedule({ site }: { site: string }) {
   return (
     <div class="schedule-editor">
       <ScheduleForm
+        {...form}
         site={site}
-        draft={draft}
-        onDraft={setDraft}
-        problem={problem}
-        saving={saving}
         onSave={make}
         notice={
-          <Field
+          <TextField
+            type="datetime-local"
             label={`Survey also what was scanned since (${zone})`}
             hint="Empty: only from now on. Which of the past nights are made is said by what becomes of missed runs."
+            max={localOf(new Date(), zone)}
+            value={since}
             error={problem?.about('since')}
-          >
-            {(ties) => (
-              <input
-                {...ties}
-                type="datetime-local"
-                max={localOf(new Date(), zone)}
-                value={since}
-                onInput={(event) => setSince(event.currentTarget.value)}
-              />
-            )}
-          </Field>
+            onValue={setSince}
+          />
         }
       />
     </div>

@@ -4,7 +4,7 @@ import { useResource } from '../../app/app';
 import { address, type Schema } from '../../lib/api';
 import { counted } from '../../lib/format';
 import { SeriesChart } from '../../ui/series_chart';
-import { EmptyState, Loaded } from '../../ui/states';
+import { EmptyPanel, Loaded } from '../../ui/states';
 import { Time } from '../../ui/time';
 import { type Run, type Schedule, seriesAt } from './data';
 import { courseOf, limitsOf, rangeOf } from './series_data';
@@ -29,11 +29,9 @@ export function SeriesCharts({ schedule, zone, figure, window_h }: Asked & { win
     <Loaded of={series} what="series">
       {(data) =>
         data.values.length === 0 ? (
-          <div class="panel">
-            <EmptyState title="No night has this figure yet.">
-              <p>Each survey of {schedule.name} adds a value.</p>
-            </EmptyState>
-          </div>
+          <EmptyPanel title="No night has this figure yet.">
+            <p>Each survey of {schedule.name} adds a value.</p>
+          </EmptyPanel>
         ) : (
           <div class="panels">
             <Main schedule={schedule} zone={zone} figure={figure} series={data} runs={runs} />

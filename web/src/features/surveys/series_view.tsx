@@ -4,11 +4,12 @@ import './surveys.css';
 import { setQuery, useResource, useSelect } from '../../app/app';
 import { lazy } from '../../app/lazy';
 import { linkTo } from '../../app/router';
+import { useChosenSite } from '../../app/sites';
 import { address } from '../../lib/api';
 import { ChoiceFilter } from '../../ui/filters';
 import { SitePicker } from '../../ui/site_picker';
-import { EmptyState, Loaded } from '../../ui/states';
-import { type Schedule, useSchedules, useSurveyedSite, useVolumeZones } from './data';
+import { EmptyPanel, Loaded } from '../../ui/states';
+import { type Schedule, useSchedules, useVolumeZones } from './data';
 import { kFigureNames, kFigures } from './words';
 
 const SeriesCharts = lazy(() => import('./series_charts').then((module) => module.SeriesCharts));
@@ -20,7 +21,8 @@ export function SeriesView() {
       ? undefined
       : address('/api/v1/schedules/{id}', { path: { id: Number(query['schedule']) } }),
   ).data?.site;
-  const site = useSurveyedSite(query['site'] ?? asked);
+  const chosen = useChosenSite('survey');
+  const site = asked ?? chosen;
   const schedules = useSchedules(site);
   return (
     <>
@@ -41,11 +43,9 @@ export function SeriesView() {
           return schedule ? (
             <OneSchedule schedule={schedule} schedules={items} />
           ) : (
-            <div class="panel">
-              <EmptyState title="There is no schedule yet, and so no series.">
-                <a href={linkTo('/surveys/schedules/new', { site })}>Make a schedule</a>
-              </EmptyState>
-            </div>
+            <EmptyPanel title="There is no schedule yet, and so no series.">
+              <a href={linkTo('/surveys/schedules/new', { site })}>Make a schedule</a>
+            </EmptyPanel>
           );
         }}
       </Loaded>

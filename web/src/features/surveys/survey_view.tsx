@@ -17,7 +17,7 @@ import { RestsOn } from './rests_on';
 import { SurveyChanges } from './survey_changes';
 import { SurveyMap } from './survey_map';
 import { ZoneFigures } from './zone_figures';
-import { figureText, interval, kFigures, unitOf, worst } from './words';
+import { figureText, interval, kFigures, referenceOf, unitOf, worst } from './words';
 
 type Survey = Schema<'SurveyDetail'>;
 
@@ -78,10 +78,11 @@ function OneSurvey({ survey }: { survey: Survey }) {
   );
 }
 
-function Summary({ survey: { total, ground } }: { survey: Survey }) {
+function Summary({ survey }: { survey: Survey }) {
+  const { total } = survey;
   return (
     <dl class="panel panel-wide survey-cards">
-      <NetCutFill total={total} reference={ground.survey.reference} />
+      <NetCutFill total={total} reference={referenceOf(survey)} />
       <Card title="Changed area" under={`of ${squareMetres(total.seen_area_m2)} that were seen`}>
         {squareMetres(total.changed_area_m2)}
       </Card>
@@ -136,6 +137,7 @@ function Alarm({ survey, judged }: { survey: Survey; judged: readonly Judged[] }
     useResource(address('/api/v1/alerts', { query: { site: survey.site, limit: 1000 } })).data?.items ?? [];
   const standing = alerts.filter(
     ({ cause, opened_at, edited_at, state }) =>
+      survey.schedule !== null &&
       cause === 'survey-level' &&
       Date.parse(opened_at) <= Date.parse(survey.made_at) + 1000 &&
       (state !== 'resolved' || Date.parse(edited_at) >= Date.parse(survey.made_at)),
@@ -146,7 +148,7 @@ function Alarm({ survey, judged }: { survey: Survey; judged: readonly Judged[] }
         <h2 id="alarm">Levels and alerts</h2>
       </header>
       {judged.length === 0 ? (
-        <EmptyState title="No figure has levels.">
+        <EmptyState title={survey.schedule === null ? 'By hand: no figure has levels.' : 'No figure has levels.'}>
           {survey.schedule !== null && <a href={`/surveys/schedules/${survey.schedule}`}>Give them in the schedule</a>}
         </EmptyState>
       ) : (

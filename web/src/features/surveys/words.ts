@@ -85,6 +85,14 @@ const kOrder: readonly Level[] = ['green', 'yellow', 'orange', 'red'];
 export const worst = (levels: readonly (Level | null)[]): Level | undefined =>
   kOrder.findLast((level) => levels.includes(level));
 
+/** What a survey was compared with: by hand, the epoch that was named. */
+export const referenceOf = ({
+  schedule,
+  before,
+  ground,
+}: Schema<'SurveyDetail'>): Schema<'SurveyDefinition'>['reference'] =>
+  schedule === null ? { policy: 'fixed', epoch: before.epoch, days: null } : ground.survey.reference;
+
 /** What a survey is compared with, after "compared with". */
 export function referenceInWords({ policy, days, epoch }: Schema<'SurveyDefinition'>['reference']): string {
   switch (policy) {

@@ -11,7 +11,3 @@ export function TrackStateBadge({ track }: { track: Pick<Schema<'Track'>, 'state
   const { tone, words } = kStates[track.state];
   return <StateBadge tone={tone}>{words}</StateBadge>;
 }
-
-/** From the first scan that saw it to the last. */
-export const lastedSeconds = (track: Pick<Schema<'Track'>, 'first_seen_at' | 'last_seen_at'>): number =>
-  (Date.parse(track.last_seen_at) - Date.parse(track.first_seen_at)) / 1000;

@@ -4,17 +4,18 @@ import './tracks.css';
 import { useResource, useSelect } from '../../app/app';
 import { lazy } from '../../app/lazy';
 import { address, type Schema } from '../../lib/api';
-import { count, counted, duration, metres, percent, placeMetres, sizeMetres, volume } from '../../lib/format';
+import { count, metres, placeMetres } from '../../lib/format';
 import { historyLink, pointPlace } from '../../lib/place';
 import { KindBadge } from '../../ui/badges';
 import { ChangesTable } from '../../ui/changes_table';
 import { SightStrip } from '../../ui/sight_strip';
 import { EmptyState, Loaded } from '../../ui/states';
 import { Time } from '../../ui/time';
+import { TrackFigures } from '../../ui/track_figures';
 import { ViewLink } from '../../ui/view_link';
 import { AlertLine } from '../alerts/alert_line';
 import { findingsOf } from './findings';
-import { lastedSeconds, TrackStateBadge } from './track_state';
+import { TrackStateBadge } from './track_state';
 
 type Track = Schema<'TrackDetail'>;
 
@@ -70,13 +71,6 @@ function Facts({ track }: { track: Track }) {
             <a href={`/scans/${track.last_scan}`}>scan {track.last_scan}</a>
           </dd>
         </div>
-        <div>
-          <dt>Lasted</dt>
-          <dd>
-            {duration(lastedSeconds(track))}, in {counted(track.seen, 'scan')}
-            {track.absent > 0 && `; absent in ${count(track.absent)}`}
-          </dd>
-        </div>
         {track.ended_at !== null && track.ended_scan !== null && (
           <div>
             <dt>Seen gone</dt>
@@ -86,26 +80,7 @@ function Facts({ track }: { track: Track }) {
             </dd>
           </div>
         )}
-        <div>
-          <dt>Size</dt>
-          <dd>{sizeMetres(track.size_m)}</dd>
-        </div>
-        <div>
-          <dt>Volume of its box</dt>
-          <dd>{volume(track.volume_m3)}</dd>
-        </div>
-        <div>
-          <dt>Place</dt>
-          <dd>{placeMetres(track.centroid_m)}</dd>
-        </div>
-        <div>
-          <dt>Points</dt>
-          <dd>{counted(track.points, 'point')}</dd>
-        </div>
-        <div>
-          <dt>Confidence</dt>
-          <dd>{percent(track.confidence.value)}</dd>
-        </div>
+        <TrackFigures track={track} />
       </dl>
       <Moved track={track} other={track.moved_from} words="It was moved here from" />
       <Moved track={track} other={track.moved_to} words="It was moved to" />

@@ -7,9 +7,10 @@ import { historyLink, pointPlace } from '../../lib/place';
 import { KindBadge } from '../../ui/badges';
 import { type Column, DataTable } from '../../ui/data_table';
 import { ChoiceFilter, SiteFilter, TimeFilter } from '../../ui/filters';
-import { EmptyState } from '../../ui/states';
+import { EmptyPanel, noneOf } from '../../ui/states';
 import { Time } from '../../ui/time';
-import { lastedSeconds, TrackStateBadge } from './track_state';
+import { lastedSeconds } from '../../ui/track_figures';
+import { TrackStateBadge } from './track_state';
 
 type Track = Schema<'Track'>;
 
@@ -80,11 +81,9 @@ export function TracksView() {
           </>
         }
         empty={
-          <div class="panel">
-            <EmptyState title="No track is like this.">
-              <p>A track begins when a scan shows something that differs from what is normal.</p>
-            </EmptyState>
-          </div>
+          <EmptyPanel title={noneOf('track', [site, kind, state, from, to, cursor])}>
+            <p>A track begins when a scan shows something that differs from what is normal.</p>
+          </EmptyPanel>
         }
       />
     </>

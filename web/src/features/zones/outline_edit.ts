@@ -58,7 +58,7 @@ export function reduceOutline(edit: OutlineEdit, action: OutlineAction): Outline
     case 'let go':
       return { ...edit, pulling: false };
     case 'moved':
-      return step(edit, { corners: corners.with(action.corner, action.to) }, action.corner);
+      return step(edit, { corners: moved(corners, action.corner, action.to) }, action.corner);
     case 'removed':
       return removed(edit, action.corner);
     case 'cleared':
@@ -70,6 +70,9 @@ export function reduceOutline(edit: OutlineEdit, action: OutlineAction): Outline
   }
 }
 
+const moved = (corners: readonly Place[], corner: number, to: Place): Place[] =>
+  corners.map((each, at) => (at === corner ? to : each));
+
 const outlineOf = ({ corners, closed }: Outline): Outline => ({ corners, closed });
 
 function step(edit: OutlineEdit, change: Partial<Outline>, held: number | undefined): OutlineEdit {
@@ -78,19 +81,22 @@ function step(edit: OutlineEdit, change: Partial<Outline>, held: number | undefi
 
 /** A new corner that is pulled on at once is one step with its pull. */
 function inserted(edit: OutlineEdit, { after, at }: { after: number; at: Place }): OutlineEdit {
-  return { ...step(edit, { corners: edit.corners.toSpliced(after + 1, 0, at) }, after + 1), pulling: true };
+  return {
+    ...step(edit, { corners: [...edit.corners.slice(0, after + 1), at, ...edit.corners.slice(after + 1)] }, after + 1),
+    pulling: true,
+  };
 }
 
 function pulled(edit: OutlineEdit, to: Place): OutlineEdit {
   if (edit.held === undefined || edit.held >= edit.corners.length) return edit;
-  const corners = edit.corners.with(edit.held, to);
+  const corners = moved(edit.corners, edit.held, to);
   return edit.pulling ? { ...edit, corners } : { ...step(edit, { corners }, edit.held), pulling: true };
 }
 
 /** What is left of fewer than three corners is open again. */
 function removed(edit: OutlineEdit, corner: number): OutlineEdit {
   if (corner < 0 || corner >= edit.corners.length) return edit;
-  const corners = edit.corners.toSpliced(corner, 1);
+  const corners = edit.corners.filter((_, each) => each !== corner);
   return step(edit, { corners, closed: edit.closed && corners.length >= kLeastCorners }, undefined);
 }
 

@@ -6,7 +6,8 @@ import { useResource } from '../../app/app';
 import { address, type Schema } from '../../lib/api';
 import { counted, metres, squareMetres } from '../../lib/format';
 import { type Problem } from '../../lib/problem';
-import { Field, FormProblem, NumberField, TextField } from '../../ui/form';
+import { EditForm, type PartProps } from '../../ui/edit_form';
+import { NumberField, SelectField, TextField } from '../../ui/form';
 import { type Bounds, boundsOf, widened } from '../../ui/top_view/frame';
 import { type Overlay } from '../../ui/top_view/overlays';
 import { type Scene, useScene } from '../../ui/top_view/scene';
@@ -44,7 +45,6 @@ export function ZoneEditor(props: ZoneEditorProps) {
   const scene = useScene(props.site);
   const [draft, setDraft] = useState(props.initial);
   const [outline, dispatch] = useReducer(reduceOutline, props.corners, beginOutline);
-  const [tried, setTried] = useState(false);
   const current = useRef(outline);
   current.current = outline;
   const [tool] = useState(() => new OutlineTool(() => current.current, dispatch));
@@ -92,35 +92,28 @@ export function ZoneEditor(props: ZoneEditorProps) {
           />
         )}
       </div>
-      <form
-        class="panel panel-body"
-        noValidate
-        onSubmit={(event) => {
-          event.preventDefault();
-          setTried(true);
-          if (Object.keys(faults).length === 0) props.onSave(bodyOf(draft, outline));
-        }}
+      <EditForm
+        draft={draft}
+        onDraft={setDraft}
+        problem={props.problem}
+        saving={props.saving}
+        faults={faults}
+        notice={props.notice?.(bodyOf(draft, outline))}
+        actions={props.actions}
+        onSave={() => props.onSave(bodyOf(draft, outline))}
       >
-        {props.notice?.(bodyOf(draft, outline))}
-        <ZoneFields
-          draft={draft}
-          onDraft={setDraft}
-          error={(field) => (tried ? faults[field] : undefined) ?? props.problem?.about(field)}
-        />
-        <OutlineFields
-          scene={scene}
-          edit={outline}
-          dispatch={dispatch}
-          error={(tried || outline.closed ? faults.polygon_m : undefined) ?? props.problem?.about('polygon_m')}
-        />
-        <FormProblem problem={props.problem} shown={['name', 'polygon_m', 'z_min_m', 'z_max_m']} />
-        <div class="actions">
-          <button type="submit" class="primary" disabled={props.saving}>
-            Save
-          </button>
-          {props.actions}
-        </div>
-      </form>
+        {(part) => (
+          <>
+            <ZoneFields {...part} />
+            <OutlineFields
+              scene={scene}
+              edit={outline}
+              dispatch={dispatch}
+              error={part.error('polygon_m') ?? (outline.closed ? faults.polygon_m : undefined)}
+            />
+          </>
+        )}
+      </EditForm>
     </div>
   );
 }
@@ -180,51 +173,19 @@ function DrawingBar({
   );
 }
 
-interface ZoneFieldsProps {
-  draft: ZoneDraft;
-  onDraft: (draft: ZoneDraft) => void;
-  error: (field: 'name' | 'z_min_m' | 'z_max_m') => string | undefined;
-}
-
-function ZoneFields({ draft, onDraft, error }: ZoneFieldsProps) {
+function ZoneFields({ draft, field }: PartProps<ZoneDraft>) {
   return (
     <>
-      <TextField
-        label="Name"
-        value={draft.name}
-        error={error('name')}
-        onValue={(name) => onDraft({ ...draft, name })}
+      <TextField label="Name" {...field('name')} />
+      <SelectField
+        label="Kind"
+        hint={meaningOf(draft.kind)}
+        options={kZoneKinds.map(({ kind }) => ({ value: kind, words: kind }))}
+        {...field('kind')}
       />
-      <Field label="Kind" hint={meaningOf(draft.kind)}>
-        {(ties) => (
-          <select
-            {...ties}
-            value={draft.kind}
-            onChange={(event) => onDraft({ ...draft, kind: event.currentTarget.value as ZoneDraft['kind'] })}
-          >
-            {kZoneKinds.map(({ kind }) => (
-              <option key={kind} value={kind}>
-                {kind}
-              </option>
-            ))}
-          </select>
-        )}
-      </Field>
       <div class="field-pair">
-        <NumberField
-          label="From height"
-          unit="m"
-          value={draft.z_min_m}
-          error={error('z_min_m')}
-          onValue={(z_min_m) => onDraft({ ...draft, z_min_m })}
-        />
-        <NumberField
-          label="To height"
-          unit="m"
-          value={draft.z_max_m}
-          error={error('z_max_m')}
-          onValue={(z_max_m) => onDraft({ ...draft, z_max_m })}
-        />
+        <NumberField label="From height" unit="m" {...field('z_min_m')} />
+        <NumberField label="To height" unit="m" {...field('z_max_m')} />
       </div>
     </>
   );

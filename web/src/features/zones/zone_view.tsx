@@ -2,19 +2,18 @@
 
 import './zones.css';
 import { useState } from 'preact/hooks';
-import { loader, navigate, showProblem, showToast, useResource, useSelect } from '../../app/app';
+import { loader, navigate, showToast, useResource } from '../../app/app';
 import { lazy } from '../../app/lazy';
 import { linkTo } from '../../app/router';
-import { useSites } from '../../app/sites';
+import { useChosenSite } from '../../app/sites';
 import { address, type Answer, type Schema, send } from '../../lib/api';
 import { counted } from '../../lib/format';
-import { Problem } from '../../lib/problem';
 import { type Resource } from '../../lib/resources';
 import { StateBadge } from '../../ui/badges';
-import { DeleteDialog } from '../../ui/delete_dialog';
+import { NewAtSite } from '../../ui/at_site';
+import { DeleteButton, DeleteDialog } from '../../ui/delete_dialog';
 import { EditedElsewhere, useVersion } from '../../ui/edited_elsewhere';
-import { SitePicker } from '../../ui/site_picker';
-import { EmptyState, Loaded } from '../../ui/states';
+import { Loaded } from '../../ui/states';
 import { Ago } from '../../ui/time';
 import { useSaving } from '../../ui/use_saving';
 import { ViewLink } from '../../ui/view_link';
@@ -82,11 +81,7 @@ function OneZone({ resource }: { resource: Resource<Zone> & { data: Zone } }) {
             />
           )
         }
-        actions={
-          <button type="button" onClick={() => setAsking(true)}>
-            Delete …
-          </button>
-        }
+        actions={<DeleteButton onAsk={() => setAsking(true)} />}
       />
       <CoveragePanel zone={zone} />
       {asking && <DeleteZone zone={zone} onClose={() => setAsking(false)} />}
@@ -99,19 +94,13 @@ function DeleteZone({ zone, onClose }: { zone: Zone; onClose: () => void }) {
   const rules = useResource(address('/api/v1/rules', { query: { site: zone.site, limit: 1000 } }));
   const users = rules.data?.items.filter((rule) => rule.zone === zone.id);
   const remove = async (): Promise<void> => {
-    try {
-      await send('delete', '/api/v1/zones/{id}', { path: { id: zone.id } });
-      listsAreOld();
-      showToast('good', `The zone ${zone.name} was deleted.`);
-      navigate(linkTo('/zones', { site: zone.site }));
-    } catch (failure) {
-      if (!(failure instanceof Problem)) throw failure;
-      showProblem(failure);
-      onClose();
-    }
+    await send('delete', '/api/v1/zones/{id}', { path: { id: zone.id } });
+    listsAreOld();
+    showToast('good', `The zone ${zone.name} was deleted.`);
+    navigate(linkTo('/zones', { site: zone.site }));
   };
   return (
-    <DeleteDialog what={zone.name} onClose={onClose} onDelete={users?.length === 0 ? () => void remove() : undefined}>
+    <DeleteDialog what={`the zone ${zone.name}`} onClose={onClose} onDelete={users?.length === 0 ? remove : undefined}>
       {!users ? (
         <p class="muted">Asking which rules look into it …</p>
       ) : users.length === 0 ? (
@@ -135,37 +124,20 @@ function DeleteZone({ zone, onClose }: { zone: Zone; onClose: () => void }) {
   );
 }
 
-export function NewZoneView() {
-  const sites = useSites();
-  const asked = useSelect((state) => state.location.query['site']);
-  const [chosen, setChosen] = useState<string | undefined>(asked);
-  const site = chosen ?? sites[0]?.name;
+export const NewZoneView = () => (
+  <NewAtSite title="New zone" site={useChosenSite()}>
+    {(site) => <MakeZone site={site} />}
+  </NewAtSite>
+);
+
+function MakeZone({ site }: { site: string }) {
   const { saving, problem, run } = useSaving();
   const make = (body: Schema<'NewZone'>): void =>
     void run(async () => {
-      const answer: Answer<Zone> = await send('post', '/api/v1/zones', { body: { ...body, site: site ?? '' } });
+      const answer: Answer<Zone> = await send('post', '/api/v1/zones', { body: { ...body, site } });
       listsAreOld();
       showToast('good', `The zone ${answer.data.name} is there. It takes effect with the next scan.`);
       navigate(`/zones/${answer.data.id}`);
     }, listsAreOld);
-  return (
-    <>
-      <div class="view-head">
-        <h1>New zone</h1>
-        {site !== undefined && (
-          <>
-            <span class="muted">at {site}</span>
-            <SitePicker site={site} onSite={setChosen} />
-          </>
-        )}
-      </div>
-      {site === undefined ? (
-        <div class="panel">
-          <EmptyState title="There is no site yet." />
-        </div>
-      ) : (
-        <ZoneEditor key={site} site={site} initial={emptyDraft} problem={problem} saving={saving} onSave={make} />
-      )}
-    </>
-  );
+  return <ZoneEditor site={site} initial={emptyDraft} problem={problem} saving={saving} onSave={make} />;
 }

@@ -3,12 +3,13 @@
 import './zones.css';
 import { navigate, setQuery, useResource, useSelect } from '../../app/app';
 import { linkTo } from '../../app/router';
-import { useSites } from '../../app/sites';
+import { useChosenSite } from '../../app/sites';
 import { address, type Schema } from '../../lib/api';
 import { percent } from '../../lib/format';
 import { StateBadge } from '../../ui/badges';
 import { type Column, DataTable } from '../../ui/data_table';
-import { EmptyState } from '../../ui/states';
+import { AtSite } from '../../ui/at_site';
+import { EmptyPanel } from '../../ui/states';
 import { Ago } from '../../ui/time';
 import { useScene } from '../../ui/top_view/scene';
 import { TopView } from '../../ui/top_view/top_view';
@@ -39,9 +40,8 @@ function LatestCoverage({ zone }: { zone: Zone }) {
 }
 
 export function ZonesView() {
-  const sites = useSites();
   const query = useSelect((state) => state.location.query);
-  const site = query['site'] ?? sites[0]?.name;
+  const site = useChosenSite();
   const page = useResource(
     site === undefined ? undefined : address('/api/v1/zones', { query: { site, cursor: query['cursor'], limit: 200 } }),
   );
@@ -57,38 +57,34 @@ export function ZonesView() {
           New zone
         </a>
       </div>
-      {site === undefined ? (
-        <div class="panel">
-          <EmptyState title="There is no site yet." />
-        </div>
-      ) : (
-        <div class="zones">
-          <TopView
-            scene={scene}
-            label={`${site} from above, with its zones`}
-            overlays={zones.map((zone) => asOverlay(zone))}
-            onPick={({ place_m }) => {
-              const hit = zones.filter((zone) => isInside(placesOf(zone), place_m)).at(-1);
-              if (hit) navigate(`/zones/${hit.id}`);
-            }}
-          />
-          <DataTable
-            caption={`zones of ${site}`}
-            page={page}
-            columns={kColumns}
-            rowKey={({ id }) => id}
-            searchText={({ name, kind }) => `${name} ${kind}`}
-            filters={<SitePicker site={site} onSite={(name) => setQuery({ site: name, cursor: undefined })} />}
-            empty={
-              <div class="panel">
-                <EmptyState title="No zone yet: rules look everywhere.">
-                  <a href={linkTo('/zones/new', { site })}>Draw the first one</a>
-                </EmptyState>
-              </div>
-            }
-          />
-        </div>
-      )}
+      <AtSite site={site}>
+        {(name) => (
+          <div class="zones">
+            <TopView
+              scene={scene}
+              label={`${name} from above, with its zones`}
+              overlays={zones.map((zone) => asOverlay(zone))}
+              onPick={({ place_m }) => {
+                const hit = zones.filter((zone) => isInside(placesOf(zone), place_m)).at(-1);
+                if (hit) navigate(`/zones/${hit.id}`);
+              }}
+            />
+            <DataTable
+              caption={`zones of ${name}`}
+              page={page}
+              columns={kColumns}
+              rowKey={({ id }) => id}
+              searchText={({ name, kind }) => `${name} ${kind}`}
+              filters={<SitePicker site={name} onSite={(chosen) => setQuery({ site: chosen, cursor: undefined })} />}
+              empty={
+                <EmptyPanel title="No zone yet: rules look everywhere.">
+                  <a href={linkTo('/zones/new', { site: name })}>Draw the first one</a>
+                </EmptyPanel>
+              }
+            />
+          </div>
+        )}
+      </AtSite>
     </>
   );
 }
