@@ -21,6 +21,8 @@ export default defineConfig({
   testMatch: '**/*.spec.ts',
   globalSetup: './e2e/support/global_setup.ts',
   workers: 1,
+  // On a machine that is busy with other things a test may run out of time; what fails twice is broken. It says "flaky".
+  retries: process.env['CI'] ? 1 : 0,
   forbidOnly: true,
   timeout: 60_000,
   expect: { timeout: 15_000 },
