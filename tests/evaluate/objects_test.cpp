@@ -107,3 +107,19 @@ TEST_CASE("what went is scored apart from what came") {
   CHECK(score.both() == ObjectCounts{.real = 3, .found = 1, .once = 1, .false_ = 1});
   CHECK(score.comparisons == 1);
 }
+
+TEST_CASE("of every object and every false change it is said which changes they are") {
+  Scene scene(repeated({{1, 60}, {0, 40}, {2, 20}}));
+  scene.change(0, 30);
+  scene.change(32, 60);
+  scene.change(60, 100);
+  const ObjectFates fates = fates_of(scene.comparison, scene.labels);
+  REQUIRE(fates.objects.size() == 2);
+  CHECK(fates.objects[0].state == 1);
+  CHECK(fates.objects[0].shown_by == std::vector<std::size_t>{0, 1});
+  CHECK(fates.objects[1].state == 2);
+  CHECK(fates.objects[1].shown_by.empty());
+  REQUIRE(fates.false_changes.size() == 1);
+  CHECK(fates.false_changes[0].shown_by == std::vector<std::size_t>{2});
+  CHECK(fates.undecided.empty());
+}

@@ -17,6 +17,8 @@ TableRow some_row() {
   row.clustering = {0.4, 12};
   row.points.added = {.found = 3, .false_ = 1, .missed = 3, .unchanged = 9};
   row.points.removed = {.found = 1, .false_ = 0, .missed = 0, .unchanged = 9};
+  row.in_sight.added = {.found = 3, .false_ = 1, .missed = 1, .unchanged = 9};
+  row.in_sight.removed = row.points.removed;
   row.cases = 14;
   row.detect_ms = 24.4;
   row.points_per_s = 9.6e6;
@@ -28,8 +30,8 @@ TableRow some_row() {
 TEST_CASE("a row of the table as Markdown") {
   std::ostringstream out;
   write_markdown(out, std::vector{some_row()});
-  CHECK(out.str().find("| same pose | with | union best | 0.800 | 0.571 | 0.667 | 0.600 | 1.000 | 1.5 x (0.75°) | 0.35 "
-                       "| 0.4 | 12 | 14 | 24 | 9.6 |\n") != std::string::npos);
+  CHECK(out.str().find("| same pose | with | union best | 0.800 | 0.571 | 0.667 | 0.600 | 1.000 | 0.800 | 1.5 x "
+                       "(0.75°) | 0.35 | 0.4 | 12 | 14 | 24 | 9.6 |\n") != std::string::npos);
 }
 
 TEST_CASE("without clusters the cells of the clusters stay empty, and chosen thresholds are called default") {
