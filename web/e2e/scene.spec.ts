@@ -135,9 +135,13 @@ test('distances are measured with the keyboard alone', async ({ page, yard }) =>
     // Nearer, until a point lies at the cross.
     for (let tries = 0; tries < 12; ++tries) {
       await page.keyboard.press('Enter');
-      if (await page.getByText(step === 'first' ? 'Now the other point.' : /level,/).isVisible()) break;
+      const taken = page.getByText(step === 'first' ? 'Now the other point.' : /level,/);
+      const isTaken = await taken.waitFor({ timeout: 500 }).then(
+        () => true,
+        () => false,
+      );
+      if (isTaken) break;
       await page.keyboard.press('Shift+ArrowDown');
-      await page.waitForTimeout(50);
     }
     if (step === 'first') for (const _ of [1, 2, 3]) await page.keyboard.press('Shift+ArrowLeft');
   }
