@@ -26,7 +26,7 @@ struct OrientedBox {
 };
 
 /// How sure a change is: over its points, the mean share of priors that saw them free, that supported them, and that
-/// could not tell. `value` is the share of the telling answers that say free: free / (free + supported).
+/// could not tell. `value`: the share of the telling scans that agree; a prior that shows what was removed agrees.
 struct Confidence {
   double value = 0.0;  ///< 0..1
   double free = 0.0;

@@ -1,6 +1,7 @@
 #include "core/epoch.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/choose_priors.hpp"
 #include "core/detect_points.hpp"
@@ -80,8 +81,8 @@ class Pool {
     for (std::size_t k = 0; k < epochs.before.scans.size(); ++k) add(epochs.before.scans[k], before.detections[k]);
     Detection& first = after.detections.front();
     pooled_.classes = first.classes;
-    pooled_.free = std::move(first.free);
-    pooled_.supported = std::move(first.supported);
+    pooled_.free = first.free;
+    pooled_.supported = first.supported;
     pooled_.angle_rad.assign(others_.size(), 0.0);
   }
 
@@ -90,7 +91,6 @@ class Pool {
     const Comparison formed = form_changes(epochs_.after.scans.front(), others_, parameters, std::move(pooled_));
     EpochComparison result;
     result.changes = formed.changes;
-    for (Change& change : result.changes) restore_shares(change);
     result.after.push_back({formed.classes, formed.change_of});
     const std::size_t later = epochs_.after.scans.size() - 1;
     for (std::size_t p = 0; p < others_.size(); ++p) {
@@ -103,6 +103,8 @@ class Pool {
       points.classes[point.index] = point.point_class;
       points.change_of[point.index] = point.change;
     }
+    count_votes(epochs_.after.scans.size(), before_, result.before, result.changes);
+    count_votes(epochs_.before.scans.size(), after_, result.after, result.changes);
     result.testable_before = before_.testable;
     result.testable_after = after_.testable;
     return result;
@@ -115,7 +117,7 @@ class Pool {
     for (std::uint32_t i = 0; i < detection.classes.size(); ++i) {
       if (!is_change(detection.classes[i])) continue;
       pooled_.prior_points.push_back({.prior = prior, .index = i, .point_class = detection.classes[i]});
-      pooled_.prior_votes.push_back({.free = detection.free[i], .supported = detection.supported[i]});
+      pooled_.prior_votes.emplace_back();  // `count_votes` counts
     }
   }
 
@@ -128,14 +130,29 @@ class Pool {
     return {std::move(classes), std::move(none)};
   }
 
-  /// Only the scans of the other epoch were asked.
-  void restore_shares(Change& change) const {
-    const auto asked = (change.kind == ChangeKind::removed ? epochs_.after : epochs_.before).scans.size();
-    const double factor = static_cast<double>(std::max<std::size_t>(others_.size(), 1)) / static_cast<double>(asked);
-    Confidence& confidence = change.confidence;
-    confidence.free = std::min(1.0, factor * confidence.free);
-    confidence.supported = std::min(1.0, factor * confidence.supported);
-    confidence.unknown = std::max(0.0, 1.0 - confidence.free - confidence.supported);
+  /// Only the `asked` scans of the other epoch have a vote on the points of one.
+  static void count_votes(std::size_t asked, const Side& side, std::span<const EpochPoints> points,
+                          std::vector<Change>& changes) {
+    std::vector<std::array<double, 3>> sums(changes.size());  // points, free, supported
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      for (std::size_t i = 0; i < points[k].change_of.size(); ++i) {
+        const std::int32_t change = points[k].change_of[i];
+        if (change < 0) continue;
+        std::array<double, 3>& sum = sums[static_cast<std::size_t>(change)];
+        sum[0] += 1.0;
+        sum[1] += side.detections[k].free[i];
+        sum[2] += side.detections[k].supported[i];
+      }
+    }
+    for (std::size_t c = 0; c < changes.size(); ++c) {
+      const auto& [count, free, supported] = sums[c];
+      if (count == 0.0) continue;
+      const double votes = count * static_cast<double>(asked);
+      changes[c].confidence = {.value = free > 0.0 ? free / (free + supported) : 0.0,
+                               .free = free / votes,
+                               .supported = supported / votes,
+                               .unknown = std::max(0.0, 1.0 - (free + supported) / votes)};
+    }
   }
 
   const EpochPair& epochs_;

@@ -27,30 +27,48 @@ PointClass class_of(ChangeKind kind) {
 
 /// A changed point in the world, whichever scan it comes from.
 struct ChangedPoint {
-  Eigen::Vector3d world_m;
-  double free = 0.0, supported = 0.0;  ///< shares of the priors
-  std::uint32_t place = 0;             ///< in the scan, or in `Detection::prior_points`
-  std::uint32_t view = 0;              ///< 0: of the scan; else of the prior before that
+  Eigen::Vector3d world_m = Eigen::Vector3d::Zero();
+  double free = 0.0, supported = 0.0;        ///< shares of the priors
+  double agreeing = 0.0, disagreeing = 0.0;  ///< scans that agree that it changed, in relation to the priors
+  std::uint32_t place = 0;                   ///< in the scan, or in `Detection::prior_points`
+  std::uint32_t view = 0;                    ///< 0: of the scan; else of the prior before that
   float reach_m = 0.0f;
 };
+
+ChangedPoint point_of_scan(const Detection& detection, std::uint32_t i, double voters) {
+  const double free = detection.free[i] / voters, supported = detection.supported[i] / voters;
+  return {.free = free, .supported = supported, .agreeing = free, .disagreeing = supported, .place = i};
+}
+
+/// A prior's point changed because the compared scan saw its place free. That its own prior, and others, show the thing
+/// agrees with that: it was there.
+ChangedPoint point_of_prior(const Detection& detection, std::uint32_t k, double voters) {
+  const PriorPointVotes& votes = detection.prior_votes[k];
+  const double free = (votes.free - 1) / voters, supported = (votes.supported + 1) / voters;
+  return {.free = free,
+          .supported = supported,
+          .agreeing = supported + 1.0 / voters,
+          .disagreeing = free,
+          .place = k,
+          .view = detection.prior_points[k].prior + 1};
+}
 
 std::vector<ChangedPoint> changed_points(ChangeKind kind, const ScanView& scan, std::span<const ScanView> priors,
                                          const CompareParameters& parameters, const Detection& detection) {
   const PointClass wanted = class_of(kind);
   const auto voters = static_cast<double>(std::max<std::size_t>(priors.size(), 1));
   std::vector<ChangedPoint> points;
+  const auto add = [&](ChangedPoint point, const ScanView& view, std::uint32_t i) {
+    point.world_m = view.world_from_sensor * view.points[i].cast<double>();
+    point.reach_m = reach_m(view, view.points[i], parameters);
+    points.push_back(point);
+  };
   for (std::uint32_t i = 0; i < detection.classes.size(); ++i) {
-    if (detection.classes[i] != wanted) continue;
-    points.push_back({scan.world_from_sensor * scan.points[i].cast<double>(), detection.free[i] / voters,
-                      detection.supported[i] / voters, i, 0, reach_m(scan, scan.points[i], parameters)});
+    if (detection.classes[i] == wanted) add(point_of_scan(detection, i, voters), scan, i);
   }
   for (std::uint32_t k = 0; k < detection.prior_points.size(); ++k) {
     const PriorPoint& point = detection.prior_points[k];
-    if (point.point_class != wanted) continue;
-    const ScanView& prior = priors[point.prior];
-    points.push_back({prior.world_from_sensor * prior.points[point.index].cast<double>(),
-                      detection.prior_votes[k].free / voters, detection.prior_votes[k].supported / voters, k,
-                      point.prior + 1, reach_m(prior, prior.points[point.index], parameters)});
+    if (point.point_class == wanted) add(point_of_prior(detection, k, voters), priors[point.prior], point.index);
   }
   return points;
 }
@@ -83,6 +101,7 @@ std::vector<Members> kept_clusters(const std::vector<ChangedPoint>& points, cons
 
 Change describe(ChangeKind kind, const std::vector<ChangedPoint>& points, const Members& members) {
   Change change{.kind = kind, .points = members.size()};
+  double agreeing = 0.0, disagreeing = 0.0;
   Eigen::Matrix3Xd positions_m(3, static_cast<Eigen::Index>(members.size()));
   for (std::size_t k = 0; k < members.size(); ++k) {
     const ChangedPoint& point = points[members[k]];
@@ -90,6 +109,8 @@ Change describe(ChangeKind kind, const std::vector<ChangedPoint>& points, const 
     change.bounds_m.extend(point.world_m);
     change.confidence.free += point.free;
     change.confidence.supported += point.supported;
+    agreeing += point.agreeing;
+    disagreeing += point.disagreeing;
   }
   const auto n = static_cast<double>(members.size());
   change.centroid_m = positions_m.rowwise().mean();
@@ -98,8 +119,7 @@ Change describe(ChangeKind kind, const std::vector<ChangedPoint>& points, const 
   change.confidence.free = std::min(change.confidence.free / n, 1.0);
   change.confidence.supported = std::min(change.confidence.supported / n, 1.0);
   change.confidence.unknown = std::max(0.0, 1.0 - change.confidence.free - change.confidence.supported);
-  const double telling = change.confidence.free + change.confidence.supported;
-  change.confidence.value = telling > 0.0 ? change.confidence.free / telling : 0.0;
+  change.confidence.value = agreeing > 0.0 ? agreeing / (agreeing + disagreeing) : 0.0;
   return change;
 }
 
