@@ -227,10 +227,10 @@ TEST_CASE("several priors' returns of one removed thing are one change") {
   REQUIRE(comparison.changes.size() == 1);
   CHECK(comparison.priors[0].removed > 0);
   CHECK(comparison.priors[1].removed > 0);
-  // That both show it says that it was there: nobody disagrees.
+  // That both show it says that it was there: hardly any of their points, at its edges, disagrees.
   const Confidence& confidence = comparison.changes.front().confidence;
-  CHECK(confidence.value == 1.0);
-  CHECK(confidence.free == 0.0);
+  CHECK(confidence.value > 0.99);
+  CHECK(confidence.free < 0.01);
   CHECK(confidence.supported > 0.6);
 }
 
