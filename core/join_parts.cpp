@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -38,9 +40,10 @@ struct Part {
   Eigen::AlignedBox3d bounds_m;
   std::vector<Eigen::Vector3d> outline_m;  ///< some of its points, not farther apart than a part of its size
   std::vector<std::uint32_t> views;        ///< that show it, ascending
-
-  double length_m() const { return bounds_m.sizes().head<2>().norm(); }
 };
+
+/// In plan.
+double length_m(const Eigen::AlignedBox3d& bounds_m) { return bounds_m.sizes().head<2>().norm(); }
 
 Part part_of(const Members& members, const SeenPoints& points) {
   constexpr double kVoxelsPerSize = 24.0, kLeast_m = 0.02;
@@ -92,22 +95,20 @@ class Joining {
  public:
   Joining(const std::vector<Members>& clusters, const SeenPoints& points, const CompareParameters& parameters)
       : points_(points), parameters_(parameters), root_(clusters.size()) {
-    for (const Members& members : clusters) parts_.push_back(part_of(members, points));
-    whole_ = parts_;
+    for (const Members& members : clusters) {
+      parts_.push_back(part_of(members, points));
+      whole_m_.push_back(parts_.back().bounds_m);
+    }
     std::iota(root_.begin(), root_.end(), 0u);
   }
 
   void run() {
-    double longest_m = 0.0;
-    Eigen::AlignedBox3d all_m;
-    for (const Part& part : parts_) all_m.extend(part.bounds_m);
-    if (!parts_.empty()) longest_m = all_m.sizes().head<2>().norm();
-    for (const Gap& gap : gaps(longest_m)) {
+    for (const Gap& gap : gaps()) {
       const std::uint32_t a = root_of(gap.a), b = root_of(gap.b);
-      const double allowed_m = kGapPerLength * std::max(whole_[a].length_m(), whole_[b].length_m());
+      const double allowed_m = kGapPerLength * std::max(length_m(whole_m_[a]), length_m(whole_m_[b]));
       if (a == b || gap.width_m > allowed_m || is_seen_free(gap)) continue;
       root_[std::max(a, b)] = std::min(a, b);
-      whole_[std::min(a, b)].bounds_m.extend(whole_[std::max(a, b)].bounds_m);
+      whole_m_[std::min(a, b)].extend(whole_m_[std::max(a, b)]);
     }
   }
 
@@ -118,14 +119,14 @@ class Joining {
 
  private:
   /// Between all parts that are near enough to each other, the narrowest first. What is joined grows, so that a gap may
-  /// only later be narrow enough; none is wider than the longest part and everything that could be joined to it.
-  std::vector<Gap> gaps(double longest_m) const {
+  /// only later be narrow enough.
+  std::vector<Gap> gaps() const {
     std::vector<Gap> result;
     for (std::uint32_t a = 0; a < parts_.size(); ++a) {
       for (std::uint32_t b = a + 1; b < parts_.size(); ++b) {
         const double least_m = parts_[a].bounds_m.exteriorDistance(parts_[b].bounds_m);
-        const double longer_m = std::max(parts_[a].length_m(), parts_[b].length_m());
-        if (least_m > std::min(longest_m, kGrowth * kGapPerLength * longer_m)) continue;
+        const double longer_m = std::max(length_m(parts_[a].bounds_m), length_m(parts_[b].bounds_m));
+        if (least_m > kGrowth * kGapPerLength * longer_m) continue;
         result.push_back(gap_between(parts_, a, b));
       }
     }
@@ -152,8 +153,8 @@ class Joining {
 
   const SeenPoints& points_;
   const CompareParameters& parameters_;
-  std::vector<Part> parts_;  ///< one a cluster
-  std::vector<Part> whole_;  ///< of each root the bounds of all that was joined
+  std::vector<Part> parts_;                   ///< one a cluster
+  std::vector<Eigen::AlignedBox3d> whole_m_;  ///< of each root, around all that was joined
   std::vector<std::uint32_t> root_;
 };
 
