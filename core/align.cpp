@@ -233,8 +233,10 @@ class Fitting {
     const bool within = size.position_m <= allowed_m && size.angle_rad <= parameters_.tolerance.angle_rad;
     const double needed = within ? parameters_.least_agreement : parameters_.least_agreement_moved;
     if (!settled || is_hopeless() || result.agreement < needed) {
+      // What both scans show contradicts the pose, or could not refine it: its error may well be larger than reported.
+      constexpr double kDoubt = 3.0;
       result.state = RegistrationState::bad;
-      result.uncertainty = parameters_.reported;
+      result.uncertainty = {kDoubt * parameters_.reported.position_m, kDoubt * parameters_.reported.angle_rad};
       return;
     }
     result.correction = found;

@@ -53,7 +53,7 @@ struct Alignment {
   double agreement = 0.0;           ///< the same, of the evidence in the direction of motion where it is least
   std::size_t matches = 0;          ///< pieces of surface that agree
   std::size_t free_directions = 0;  ///< of the six directions of motion, those that the scene does not fix
-  PoseUncertainty uncertainty;      ///< of the corrected pose relative to the references
+  PoseUncertainty uncertainty;      ///< of the corrected pose relative to the references; wide when the fit is bad
 };
 
 /// Whether a comparison refines poses: the published method takes them as they are.

@@ -1,8 +1,10 @@
 #include "core/cluster_votes.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "core/assumed_sensor.hpp"
+#include "core/cluster_rays.hpp"
 #include "core/nearest_return.hpp"
 #include "core/returns_near.hpp"
 #include "core/smoothness.hpp"
@@ -12,6 +14,8 @@ namespace {
 
 /// Points of a cluster that are looked at for means and medians.
 constexpr std::size_t kMostLookedAt = 100;
+/// Rays through a cluster that are counted: more tell no more.
+constexpr std::size_t kEnoughRays = 60;
 
 /// Some points of a cluster, evenly spread over it, in its own frame and that of the scan that is asked.
 struct Sample {
@@ -29,72 +33,13 @@ Sample sample_of(const ScanView& view, std::span<const std::uint32_t> members, c
   return sample;
 }
 
-/// An index of the members of a cluster alone, in the frame of `asked`.
-PriorIndex index_of(const ScanView& view, std::span<const std::uint32_t> members, const ScanView& asked) {
-  const Pose asked_from_view = asked.world_from_sensor.inverse() * view.world_from_sensor;
-  PointCloud cluster;
-  cluster.reserve(members.size());
-  for (const std::uint32_t i : members) {
-    const Eigen::Vector3f p = (asked_from_view * view.points[i].cast<double>()).cast<float>();
-    cluster.push_back(p.x(), p.y(), p.z());
-  }
-  return PriorIndex::build(cluster, {});
-}
-
-/// Whether a ray that ended at `end_m` went through a cluster: its members within the angle surround the ray, and end
-/// at least `margin_m` before it does.
-bool goes_through(const PriorIndex::Impl& cluster, const Eigen::Vector3d& end_m, double angle_rad, double margin_m) {
-  const double range_m = end_m.norm(), cosine_m = std::cos(angle_rad) * range_m;
-  const Eigen::Vector3d east = end_m.cross(Eigen::Vector3d::UnitZ()), north = east.cross(end_m);
-  bool on_west = false, on_east = false, on_south = false, on_north = false, behind = true;
-  for_each_return_near(cluster, end_m, angle_rad, [&](std::uint32_t i) {
-    const Eigen::Vector3d member_m = point_of(cluster.returns[i]);
-    const double member_range_m = member_m.norm();
-    if (end_m.dot(member_m) < cosine_m * member_range_m) return;
-    behind &= range_m >= member_range_m + margin_m;
-    const double a = east.dot(member_m), e = north.dot(member_m);
-    on_west |= a <= 0.0;
-    on_east |= a >= 0.0;
-    on_south |= e <= 0.0;
-    on_north |= e >= 0.0;
-  });
-  return behind && on_west && on_east && on_south && on_north;
-}
-
-struct RayCount {
-  std::size_t through = 0;
-  std::size_t members = 0;  ///< around which rays were looked for
-};
-
-/// Counts the rays through a cluster. Its members are sorted by direction, so that the part of a large cluster that is
-/// looked at is a band of it, without holes.
-RayCount count_rays(const PriorIndex::Impl& cluster, const PriorIndex::Impl& rays, double angle_rad, double margin_m) {
-  constexpr std::size_t kMostMembers = 500;
-  const double cosine = std::cos(angle_rad);
-  RayCount count{.members = std::min(kMostMembers, cluster.returns.size())};
-  std::vector<std::uint32_t> near;
-  for (std::size_t k = 0; k < count.members; ++k) {
-    const Eigen::Vector3d member_m = point_of(cluster.returns[k]);
-    for_each_return_near(rays, member_m, angle_rad, [&](std::uint32_t i) {
-      const Eigen::Vector3d end_m = point_of(rays.returns[i]);
-      if (end_m.dot(member_m) >= cosine * end_m.norm() * member_m.norm()) near.push_back(i);
-    });
-  }
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
-  count.through = static_cast<std::size_t>(std::count_if(near.begin(), near.end(), [&](std::uint32_t i) {
-    return goes_through(cluster, point_of(rays.returns[i]), angle_rad, margin_m);
-  }));
-  return count;
-}
-
 /// A point's spacing of shots where `asked` sees it, as an angle there.
 double seen_spacing_rad(const ScanView& view, const Eigen::Vector3d& own_m, const Eigen::Vector3d& asked_m) {
   return spacing_of(view).maxCoeff() * own_m.norm() / std::max(asked_m.norm(), 0.1);
 }
 
 std::size_t rays_through(const ScanView& view, std::span<const std::uint32_t> members, const ScanView& asked,
-                         const Sample& sample, double margin_m) {
+                         const Sample& sample, double margin_m, const Crossing& crossing) {
   constexpr double kReach = 1.5, kGreatest_rad = 0.3;  // the cost grows with the square of the angle
   double spacing_rad = 0.0;
   for (std::size_t k = 0; k < sample.own_m.size(); ++k) {
@@ -103,27 +48,33 @@ std::size_t rays_through(const ScanView& view, std::span<const std::uint32_t> me
   spacing_rad /= static_cast<double>(sample.own_m.size());
   const double angle_rad = std::min(kGreatest_rad, kReach * std::max(spacing_of(asked).maxCoeff(), spacing_rad));
   const PriorIndex cluster = index_of(view, members, asked);
-  return count_rays(cluster.impl(), asked.index.impl(), angle_rad, margin_m).through;
+  return count_rays(cluster.impl(), asked.index.impl(), {angle_rad, margin_m, kEnoughRays}, &crossing);
 }
 
 void count_penetrated(const ScanView& view, const ScanView& asked, const Sample& sample, double margin_m,
-                      ClusterVotes& votes) {
+                      const Crossing& crossing, ClusterVotes& votes) {
   constexpr double kHalf = 0.5, kGreatest_rad = 0.3;
   const PriorIndex::Impl& index = asked.index.impl();
+  votes.penetrated = votes.blocked = 0;
   for (std::size_t k = 0; k < sample.own_m.size(); ++k) {
     const Eigen::Vector3d& point_m = sample.asked_m[k];
     const double range_m = point_m.norm();
     const double angle_rad = std::min(kGreatest_rad, kHalf * seen_spacing_rad(view, sample.own_m[k], point_m));
     const double cosine_m = std::cos(angle_rad) * range_m;
-    bool asked_any = false, behind = true;
+    std::vector<Eigen::Vector3d> ends_m;
+    bool behind = true;
     for_each_return_near(index, point_m, angle_rad, [&](std::uint32_t i) {
       const Eigen::Vector3d end_m = point_of(index.returns[i]);
       const double end_range_m = end_m.norm();
       if (end_m.dot(point_m) < cosine_m * end_range_m) return;
-      asked_any = true;
       behind &= end_range_m >= range_m + margin_m;
+      ends_m.push_back(end_m);
     });
-    if (asked_any) ++(behind ? votes.penetrated : votes.blocked);
+    if (!behind) {
+      ++votes.blocked;
+    } else if (!ends_m.empty() && crossing.any_of(point_m, ends_m)) {
+      ++votes.penetrated;
+    }
   }
 }
 
@@ -147,28 +98,51 @@ double median_clearance_m(const ScanView& asked, const Sample& sample) {
 
 }  // namespace
 
-ClusterVotes votes_of(const ScanView& view, std::span<const std::uint32_t> members, const ScanView& asked,
-                      const CompareParameters& parameters) {
+std::optional<ClusterVotes> votes_of(const ScanView& view, std::span<const std::uint32_t> members,
+                                     const ScanView& asked, const CompareParameters& parameters,
+                                     double least_log_odds) {
   const Sample sample = sample_of(view, members, asked);
-  ClusterVotes votes{.rays_through = rays_through(view, members, asked, sample, parameters.range_m),
-                     .clearance_m = median_clearance_m(asked, sample)};
-  count_penetrated(view, asked, sample, parameters.range_m, votes);
   const auto count = static_cast<double>(sample.asked_m.size());
+  // What is not known yet is as good as it can be.
+  ClusterVotes votes{.rays_through = kEnoughRays, .penetrated = sample.asked_m.size()};
+  const auto is_hopeless = [&] { return log_odds_of_change(votes, 0.0) < least_log_odds; };
+
+  votes.clearance_m = median_clearance_m(asked, sample);
+  if (is_hopeless()) return std::nullopt;
+
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point_m : sample.asked_m) center_m += point_m / count;
+  votes.surroundings = smoothness_around(asked, center_m, parameters.foliage_distance_m);
+  if (is_hopeless()) return std::nullopt;
+
+  const Crossing crossing(view, asked, parameters.support_distance_m);
+  count_penetrated(view, asked, sample, parameters.range_m, crossing, votes);
+  if (is_hopeless()) return std::nullopt;
+
   for (const Eigen::Vector3d& point_m : sample.asked_m) {
-    center_m += point_m / count;
     votes.roughness_m += roughness_around_m(asked, point_m, parameters.growth_distance_m) / count;
   }
-  votes.surroundings = smoothness_around(asked, center_m, parameters.foliage_distance_m);
+  if (is_hopeless()) return std::nullopt;
+
+  votes.rays_through = rays_through(view, members, asked, sample, parameters.range_m, crossing);
+  if (is_hopeless()) return std::nullopt;
   return votes;
 }
 
 double porosity_of(const ScanView& view, std::span<const std::uint32_t> members, const CompareParameters& parameters) {
   constexpr double kReach = 2.4;  // in spacings: bridges a lost return
   const PriorIndex cluster = index_of(view, members, view);
-  const RayCount own =
-      count_rays(cluster.impl(), view.index.impl(), kReach * spacing_of(view).maxCoeff(), parameters.range_m);
-  return static_cast<double>(own.through) / static_cast<double>(std::max<std::size_t>(1, own.through + own.members));
+  const RaySearch search{kReach * spacing_of(view).maxCoeff(), parameters.range_m};
+  const auto through = static_cast<double>(count_rays(cluster.impl(), view.index.impl(), search, nullptr));
+  const auto members_looked_at = static_cast<double>(std::min(kMostClusterMembers, members.size()));
+  return through / std::max(1.0, through + members_looked_at);
+}
+
+bool is_scattered(const ScanView& view, std::span<const std::uint32_t> members) {
+  constexpr std::size_t kFew = 12;
+  constexpr double kSurface =
+      0.4;  // what stands alone has 0.46 at two by three shots; a line of them has less than 0.25
+  return members.size() < kFew && smoothness_of(view, members) < kSurface;
 }
 
 double log_odds_of_change(const ClusterVotes& votes, double porosity) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/compare.hpp"
@@ -10,8 +11,8 @@ namespace raywatch {
 /// What the points of a cluster, taken together, tell about whether `asked` saw their place free. Counts are of points
 /// that are looked at: of large clusters only a part.
 struct ClusterVotes {
-  /// Rays of `asked` that went through the cluster: returns well behind it in directions that its points surround. What
-  /// is thinner than the spacing of the rays can hide between them: then there are none.
+  /// Rays of `asked` that went through the cluster, and crossed its surface: returns well behind it in directions that
+  /// its points surround. What is thinner than the spacing of the rays can hide between them: then there are none.
   std::size_t rays_through = 0;
   /// Points with rays of `asked` no farther aside than half the spacing of the scan's own shots, all of which went well
   /// behind the point, or some of which did not. A surface that fills the space between the points stops such rays.
@@ -26,15 +27,23 @@ struct ClusterVotes {
 };
 
 /// @param members points of `view`, at least one.
-ClusterVotes votes_of(const ScanView& view, std::span<const std::uint32_t> members, const ScanView& asked,
-                      const CompareParameters& parameters);
+/// @param least_log_odds what is of interest: nothing is returned when the log-odds of a change are surely below it,
+/// which
+///   is often clear before the rays are counted, the costliest step.
+std::optional<ClusterVotes> votes_of(const ScanView& view, std::span<const std::uint32_t> members,
+                                     const ScanView& asked, const CompareParameters& parameters, double least_log_odds);
 
 /// The share of the scan's own rays into a cluster that went through it, 0..1: high for fences, foliage and scattered
 /// returns, through which the rays of other scans can pass, too.
 double porosity_of(const ScanView& view, std::span<const std::uint32_t> members, const CompareParameters& parameters);
 
+/// Whether a small cluster is no surface: the scan's shots beside its points return from elsewhere. So look single
+/// returns of a fence or of grass that happen to lie together, and mixed returns at a silhouette.
+bool is_scattered(const ScanView& view, std::span<const std::uint32_t> members);
+
 /// The logarithm of the odds that a cluster truly changed, which the votes of one scan and its porosity tell: a
-/// logistic regression over the clusters of simulated places of all kinds.
+/// logistic regression over the clusters of simulated places of all kinds. Grows with the rays, the penetrated points,
+/// the clearance and the smoothness, and falls with the others.
 double log_odds_of_change(const ClusterVotes& votes, double porosity);
 
 }  // namespace raywatch

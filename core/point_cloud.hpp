@@ -48,8 +48,9 @@ struct UsableRange {
   std::optional<double> no_return_m = {};  ///< a range that the sensor reports instead of "no return"
 };
 
-/// Half the width of the band around `UsableRange::no_return_m` that is taken for the sentinel.
-inline constexpr double kNoReturnBand_m = 2e-3;
+/// Half the width of the band around `UsableRange::no_return_m` that is taken for the sentinel: receivers of one
+/// scanner may report it some millimetres apart.
+inline constexpr double kNoReturnBand_m = 1e-2;
 
 /// True if a return at `range_m` measures a surface.
 inline bool is_usable(double range_m, const UsableRange& usable) {

@@ -84,6 +84,12 @@ double smoothness_around(const ScanView& view, const Eigen::Vector3d& center_m, 
   return sum / static_cast<double>(count);
 }
 
+double smoothness_of(const ScanView& view, std::span<const std::uint32_t> members) {
+  double sum = 0.0;
+  for (const std::uint32_t i : members) sum += Neighbourhood(view, view.points[i].cast<double>()).smoothness();
+  return members.empty() ? 1.0 : sum / static_cast<double>(members.size());
+}
+
 double roughness_around_m(const ScanView& view, const Eigen::Vector3d& center_m, double radius_m) {
   constexpr std::size_t kLeast = 4;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "core/compare.hpp"
 
 namespace raywatch {
@@ -10,6 +13,9 @@ namespace raywatch {
 /// on its surface, whatever its slope is; 0..1. Leaves and grass are low, and they move. 1 where the scan shows hardly
 /// anything.
 double smoothness_around(const ScanView& view, const Eigen::Vector3d& center_m, double distance_m);
+
+/// The same of some of the scan's own returns: the mean share of the shots beside each that lie on its surface.
+double smoothness_of(const ScanView& view, std::span<const std::uint32_t> members);
 
 /// How thick: the standard deviation of the returns within `radius_m` across their plane, beyond what the scan's noise
 /// explains. 0 where the scan shows hardly anything.

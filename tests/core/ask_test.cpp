@@ -118,6 +118,7 @@ TEST_CASE("returns that are no measurement of a surface never take part") {
   prior.push_back(std::numeric_limits<float>::infinity(), 0.0f, 0.0f);
   add(prior, at(30.1, 10.1, 0.3));     // the rig
   add(prior, at(30.2, 10.1, 32.767));  // "no return"
+  add(prior, at(30.3, 10.1, 32.759));  // the same, of another receiver
   const PriorIndex index = PriorIndex::build(prior, {.min_m = 0.7, .max_m = 100.0, .no_return_m = 32.767});
   CHECK(index.size() == 49);
   std::vector<Answer> answers(1);

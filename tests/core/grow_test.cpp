@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include <random>
 
 #include "core/cluster_votes.hpp"
@@ -41,7 +43,8 @@ CompareParameters parameters() {
 }
 
 ClusterVotes votes(const Taken& scan, const std::vector<std::uint32_t>& members, const Taken& prior) {
-  return votes_of(scan.view(), members, prior.view(), parameters());
+  constexpr double kAnything = -std::numeric_limits<double>::infinity();
+  return *votes_of(scan.view(), members, prior.view(), parameters(), kAnything);
 }
 
 std::vector<Candidate> added(const std::vector<std::uint32_t>& shots) {

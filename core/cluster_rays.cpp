@@ -1,0 +1,147 @@
+#include "core/cluster_rays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/returns_near.hpp"
+
+namespace raywatch {
+
+Crossing::Crossing(const ScanView& view, const ScanView& asked, double margin_m)
+    : fit_(view), view_from_asked_(view.world_from_sensor.inverse() * asked.world_from_sensor), margin_m_(margin_m) {}
+
+bool Crossing::any_of(const Eigen::Vector3d& point_m, std::span<const Eigen::Vector3d> ends_m) const {
+  const std::optional<PlanePatch> surface = surface_at(point_m);
+  return std::any_of(ends_m.begin(), ends_m.end(),
+                     [&](const Eigen::Vector3d& end_m) { return crosses(surface, point_m, end_m); });
+}
+
+std::optional<PlanePatch> Crossing::surface_at(const Eigen::Vector3d& point_m) const {
+  return fit_(view_from_asked_ * point_m);
+}
+
+bool Crossing::crosses(const std::optional<PlanePatch>& surface, const Eigen::Vector3d& point_m,
+                       const Eigen::Vector3d& end_m) const {
+  if (!surface) return true;
+  constexpr double kSurely = 2.0;  // standard deviations of the normal
+  const double from_m = surface->distance_before_m(view_from_asked_.position_m);
+  const double to_m = surface->distance_before_m(view_from_asked_ * end_m);
+  const double least_m = margin_m_ + kSurely * surface->normal_sigma_rad * (end_m - point_m).norm();
+  return (from_m > 0.0) != (to_m > 0.0) && std::abs(to_m) >= least_m;
+}
+
+PriorIndex index_of(const ScanView& view, std::span<const std::uint32_t> members, const ScanView& asked) {
+  const Pose asked_from_view = asked.world_from_sensor.inverse() * view.world_from_sensor;
+  PointCloud cluster;
+  cluster.reserve(members.size());
+  for (const std::uint32_t i : members) {
+    const Eigen::Vector3f p = (asked_from_view * view.points[i].cast<double>()).cast<float>();
+    cluster.push_back(p.x(), p.y(), p.z());
+  }
+  return PriorIndex::build(cluster, {});
+}
+
+namespace {
+
+/// The members of a cluster around one ray.
+class Surround {
+ public:
+  Surround(const Eigen::Vector3d& end_m, double angle_rad)
+      : end_m_(end_m),
+        eastward_(end_m.cross(Eigen::Vector3d::UnitZ())),
+        northward_(eastward_.cross(end_m)),
+        range_m_(end_m.norm()),
+        cosine_m_(std::cos(angle_rad) * range_m_) {}
+
+  void add(std::uint32_t i, const Eigen::Vector3d& member_m) {
+    const double member_range_m = member_m.norm(), along_m2 = end_m_.dot(member_m);
+    if (along_m2 < cosine_m_ * member_range_m) return;
+    farthest_m_ = std::max(farthest_m_, member_range_m);
+    if (along_m2 > greatest_along_m_ * member_range_m) {
+      greatest_along_m_ = along_m2 / member_range_m;
+      nearest_ = i;
+    }
+    const double a = eastward_.dot(member_m), e = northward_.dot(member_m);
+    west_ |= a <= 0.0;
+    east_ |= a >= 0.0;
+    south_ |= e <= 0.0;
+    north_ |= e >= 0.0;
+  }
+
+  /// Whether there are members on all sides, and the ray ends well behind all of them.
+  bool lets_through(double margin_m) const {
+    return west_ && east_ && south_ && north_ && range_m_ >= farthest_m_ + margin_m;
+  }
+
+  std::uint32_t nearest() const { return nearest_; }  ///< the member with the smallest angle to the ray
+
+ private:
+  Eigen::Vector3d end_m_, eastward_, northward_;
+  double range_m_, cosine_m_;
+  double greatest_along_m_ = -1.0, farthest_m_ = 0.0;
+  std::uint32_t nearest_ = 0;
+  bool west_ = false, east_ = false, south_ = false, north_ = false;
+};
+
+}  // namespace
+
+/// Counts the rays of one scan through one cluster.
+class RayCounter {
+ public:
+  RayCounter(const PriorIndex::Impl& cluster, const PriorIndex::Impl& rays, const RaySearch& search,
+             const Crossing* crossing)
+      : cluster_(cluster), rays_(rays), search_(search), crossing_(crossing), surfaces_(cluster.returns.size()) {}
+
+  std::size_t operator()() {
+    std::size_t through = 0;
+    for (const std::uint32_t ray : rays_near()) {
+      if (goes_through(point_of(rays_.returns[ray])) && ++through == search_.enough) break;
+    }
+    return through;
+  }
+
+ private:
+  /// The rays that end in the directions of members. These are sorted by direction, so that the part of a large cluster
+  /// that is looked at is a band of it, without holes.
+  std::vector<std::uint32_t> rays_near() const {
+    const double cosine = std::cos(search_.angle_rad);
+    std::vector<std::uint32_t> near;
+    for (std::size_t k = 0; k < std::min(kMostClusterMembers, cluster_.returns.size()); ++k) {
+      const Eigen::Vector3d member_m = point_of(cluster_.returns[k]);
+      for_each_return_near(rays_, member_m, search_.angle_rad, [&](std::uint32_t i) {
+        const Eigen::Vector3d end_m = point_of(rays_.returns[i]);
+        if (end_m.dot(member_m) >= cosine * end_m.norm() * member_m.norm()) near.push_back(i);
+      });
+    }
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    return near;
+  }
+
+  bool goes_through(const Eigen::Vector3d& end_m) {
+    Surround surround(end_m, search_.angle_rad);
+    for_each_return_near(cluster_, end_m, search_.angle_rad,
+                         [&](std::uint32_t i) { surround.add(i, point_of(cluster_.returns[i])); });
+    if (!surround.lets_through(search_.margin_m)) return false;
+    if (crossing_ == nullptr) return true;
+    const Eigen::Vector3d member_m = point_of(cluster_.returns[surround.nearest()]);
+    std::optional<std::optional<PlanePatch>>& surface = surfaces_[surround.nearest()];
+    if (!surface) surface = crossing_->surface_at(member_m);
+    return crossing_->crosses(*surface, member_m, end_m);
+  }
+
+  const PriorIndex::Impl& cluster_;
+  const PriorIndex::Impl& rays_;
+  RaySearch search_;
+  const Crossing* crossing_;
+  std::vector<std::optional<std::optional<PlanePatch>>> surfaces_;  ///< at the members; looked up once
+};
+
+std::size_t count_rays(const PriorIndex::Impl& cluster, const PriorIndex::Impl& rays, const RaySearch& search,
+                       const Crossing* crossing) {
+  return RayCounter(cluster, rays, search, crossing)();
+}
+
+}  // namespace raywatch
