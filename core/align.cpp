@@ -102,8 +102,8 @@ class Fitting {
   }
 
   /// The reference's surface around a direction; the former one, if the direction has hardly changed.
-  const std::optional<PlanePatch>& patch_at(const Eigen::Vector3d& point_m, const PatchFitter& fitter,
-                                            Remembered& remembered) const {
+  static const std::optional<PlanePatch>& patch_at(const Eigen::Vector3d& point_m, const PatchFitter& fitter,
+                                                   Remembered& remembered) {
     const double near_m = 0.25 * fitter.spacing_rad() * point_m.norm();
     if ((remembered.asked_m - point_m).norm() > near_m) remembered = {point_m, fitter(point_m)};
     return remembered.patch;

@@ -138,17 +138,11 @@ double porosity_of(const ScanView& view, std::span<const std::uint32_t> members,
   return through / std::max(1.0, through + members_looked_at);
 }
 
-bool is_scattered(const ScanView& view, std::span<const std::uint32_t> members, const CompareParameters& parameters) {
+bool is_scattered(const ScanView& view, std::span<const std::uint32_t> members) {
   constexpr std::size_t kFew = 12;
   constexpr double kSurface =
       0.4;  // what stands alone has 0.46 at two by three shots; a line of them has less than 0.25
-  constexpr double kSurfacesAround = 0.55;
-  if (members.size() >= kFew) return false;
-  if (smoothness_of(view, members) < kSurface) return true;
-  if (!(parameters.foliage_distance_m > 0.0)) return false;
-  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();
-  for (const std::uint32_t i : members) center_m += view.points[i].cast<double>() / static_cast<double>(members.size());
-  return smoothness_around(view, center_m, parameters.foliage_distance_m) < kSurfacesAround;
+  return members.size() < kFew && smoothness_of(view, members) < kSurface;
 }
 
 double log_odds_of_change(const ClusterVotes& votes, double porosity) {

@@ -37,10 +37,9 @@ std::optional<ClusterVotes> votes_of(const ScanView& view, std::span<const std::
 /// returns, through which the rays of other scans can pass, too.
 double porosity_of(const ScanView& view, std::span<const std::uint32_t> members, const CompareParameters& parameters);
 
-/// Whether a small cluster is no surface: the scan's shots beside its points return from elsewhere. So look mixed
-/// returns at a silhouette. Within `foliage_distance_m`, the scan must show surfaces, too: single returns of a fence or
-/// of grass that happen to lie together are among others of it.
-bool is_scattered(const ScanView& view, std::span<const std::uint32_t> members, const CompareParameters& parameters);
+/// Whether a small cluster is no surface: most of the scan's shots beside its points return from elsewhere. So look
+/// mixed returns at a silhouette, and single ones of a fence or of grass that happen to lie together.
+bool is_scattered(const ScanView& view, std::span<const std::uint32_t> members);
 
 /// The logarithm of the odds that a cluster truly changed, which the votes of one scan and its porosity tell: a
 /// logistic regression over the clusters of simulated places of all kinds. Grows with the rays, the penetrated points,

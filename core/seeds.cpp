@@ -60,7 +60,7 @@ class Judge {
     const double least = least_log_odds();
     const std::optional<ClusterVotes> votes = votes_of(view_, cluster, scan, parameters_, least);
     return votes && log_odds_of_change(*votes, porosity_of(view_, cluster, parameters_)) >= least &&
-           (votes->rays_through >= kRaysThroughScattered || !is_scattered(view_, cluster, parameters_)) &&
+           (votes->rays_through >= kRaysThroughScattered || !is_scattered(view_, cluster)) &&
            !may_be_glass(view_, cluster, scan);
   }
 

@@ -95,7 +95,6 @@ TEST_CASE("where a scan shows no surface every ray that passes a point crosses i
 }
 
 TEST_CASE("single returns of a fence are scattered, a small thing is not") {
-  const CompareParameters parameters = default_parameters(Profile::outdoor, Grouping::consensus);
   const auto is_fence = [](int column, int row) { return std::abs(row) <= 6 && (7 * column + 11 * row) % 5 == 0; };
   const auto is_thing = [](int column, int row) { return column >= 10 && column < 13 && row >= 10 && row < 13; };
   const Taken scan(shoot([&](int column, int row) {
@@ -109,8 +108,8 @@ TEST_CASE("single returns of a fence are scattered, a small thing is not") {
     }
   }
   REQUIRE(fence.size() < 12);
-  CHECK(is_scattered(scan.view(), fence, parameters));
-  CHECK_FALSE(is_scattered(scan.view(), thing, parameters));
+  CHECK(is_scattered(scan.view(), fence));
+  CHECK_FALSE(is_scattered(scan.view(), thing));
 }
 
 }  // namespace
