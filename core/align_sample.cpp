@@ -34,12 +34,12 @@ std::size_t normal_class(const Eigen::Vector3d& normal) {
 /// Returns from evenly spread directions: one from each of so many runs of occupied cells of the index.
 std::vector<std::uint32_t> spread_returns(const PriorIndex::Impl& index, std::size_t count) {
   std::vector<std::uint32_t> occupied;
-  for (std::size_t cell = 0; cell + 1 < index.first.size(); ++cell) {
-    if (index.first[cell] < index.first[cell + 1]) occupied.push_back(index.first[cell]);
+  for (std::uint32_t cell = 0; cell + 1 < index.first.size(); ++cell) {
+    if (index.first[cell] < index.first[cell + 1]) occupied.push_back(cell);
   }
-  if (occupied.size() <= count) return occupied;
-  std::vector<std::uint32_t> spread(count);
-  for (std::size_t k = 0; k < count; ++k) spread[k] = occupied[k * occupied.size() / count];
+  const std::size_t taken = std::min(count, occupied.size());
+  std::vector<std::uint32_t> spread(taken);
+  for (std::size_t k = 0; k < taken; ++k) spread[k] = standing_for(index, occupied[k * occupied.size() / taken]);
   return spread;
 }
 

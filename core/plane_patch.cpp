@@ -70,11 +70,10 @@ PatchFitter::Moments PatchFitter::gather(const Eigen::Vector3d& point_m) const {
   const double expected = std::numbers::pi * angle_rad * angle_rad / shot_sr_;
   const auto stride = static_cast<std::uint32_t>(std::max(1.0, expected / kMostReturns));
   const double cosine = std::cos(angle_rad);
-  std::uint32_t passed = 0;
   Cone(angle_rad).for_each_cell(index_.grid, direction_of(point_m.x(), point_m.y(), point_m.z()),
                                 [&](std::uint32_t cell, bool inside) {
                                   for (std::uint32_t i = index_.first[cell]; i < index_.first[cell + 1]; ++i) {
-                                    if (passed++ % stride != 0) continue;
+                                    if (!is_chosen(index_.returns[i], stride)) continue;
                                     const Eigen::Vector3d p = point_of(index_.returns[i]);
                                     if (inside || p.dot(point_m) >= cosine * p.norm() * range_m)
                                       moments.add(p, point_m);

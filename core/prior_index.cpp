@@ -47,7 +47,8 @@ ScannedBand elevation_band_of(const PointPlanes& points, const UsableRange& usab
 /// The share of a band of elevations in which returns lie: a scan may look to one side only, or see sky above all but a
 /// few trees. Told by a sample, in bins that are wider than the gaps between the rings of common sensors.
 double occupied_share(const PointPlanes& points, const UsableRange& usable, const ScannedBand& band) {
-  constexpr std::size_t kColumns = 32, kRows = 8, kSamples = 2048;
+  constexpr std::size_t kColumns = 32, kRows = 8;
+  constexpr std::size_t kSamples = 4096;  // so many that hardly any order of the points misses a bin
   std::array<std::uint8_t, kColumns * kRows> occupied{};
   const double low = std::sin(band.low_rad), high = std::sin(band.high_rad);
   for (std::size_t k = 0; k < kSamples; ++k) {

@@ -4,15 +4,16 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <tuple>
 #include <vector>
 
 #include "core/prior_index_impl.hpp"
-#include "core/spread_sample.hpp"
 
 namespace raywatch {
 namespace {
 
-constexpr std::size_t kSamples = 600;
+constexpr std::size_t kSamples = 600;  // at least half as many are taken of a scan that has more
 constexpr double kWidestSearch_rad = 0.2;
 /// Where so many returns lie around one and none on one of its sides, it stands at the edge of what the sensor sees.
 constexpr std::size_t kReturnsAround = 800;
@@ -35,21 +36,28 @@ struct TangentPlane {
   Eigen::Vector3d axis, east, north;
 };
 
-/// The squared angular distances (tangents) from one return to its neighbours on either side, and above and below: the
-/// nearest return in each quarter of the directions around it. Infinite where there is none.
+/// Another return beside one.
+struct Neighbour {
+  double squared = std::numeric_limits<double>::infinity();  ///< of the angular distance (tangents)
+  double range_m = std::numeric_limits<double>::infinity();
+
+  double offset_rad() const { return std::sqrt(squared); }
+};
+
+/// The neighbours of a return on either side, and above and below: the nearest return in each quarter of the directions
+/// around it.
 struct Neighbours {
-  double east = std::numeric_limits<double>::infinity();
-  double west = east, north = east, south = east;
+  Neighbour east, west, north, south;
   std::size_t looked_at = 0;
 
-  bool complete() const { return std::isfinite(std::max({east, west, north, south})); }
-  void offer(double eastward, double northward) {
+  bool complete() const { return std::isfinite(std::max({east.squared, west.squared, north.squared, south.squared})); }
+  void offer(double eastward, double northward, double range_m) {
     constexpr double kSame_rad = 1e-6;  // the return itself, or a second echo of the same shot
     const double squared = eastward * eastward + northward * northward;
     if (squared < kSame_rad * kSame_rad) return;
-    double& nearest =
+    Neighbour& nearest =
         std::abs(eastward) >= std::abs(northward) ? (eastward > 0.0 ? east : west) : (northward > 0.0 ? north : south);
-    nearest = std::min(nearest, squared);
+    if (std::tie(squared, range_m) < std::tie(nearest.squared, nearest.range_m)) nearest = {squared, range_m};
   }
 };
 
@@ -72,27 +80,43 @@ Neighbours look_around(const PriorIndex::Impl& index, const Eigen::Vector3d& cen
         ++neighbours.looked_at;
         const Eigen::Vector3d to_m(index.returns[i].x_m, index.returns[i].y_m, index.returns[i].z_m);
         const double ahead_m = to_m.dot(plane.axis);
-        if (ahead_m > 0.0) neighbours.offer(to_m.dot(plane.east) / ahead_m, to_m.dot(plane.north) / ahead_m);
+        if (ahead_m > 0.0) {
+          neighbours.offer(to_m.dot(plane.east) / ahead_m, to_m.dot(plane.north) / ahead_m, to_m.norm());
+        }
       }
     }
   }
   return neighbours;
 }
 
-std::optional<Eigen::Vector2d> angular_resolution(const PriorIndex::Impl& index) {
-  std::vector<double> azimuth, elevation;
-  const std::size_t n = index.returns.size();
-  const std::size_t samples = std::min(n, kSamples);
-  for (std::size_t k = 0; k < samples; ++k) {
-    const Return& center = index.returns[spread_place(k, n)];
+/// A return with neighbours on all sides.
+struct Surrounded {
+  double range_m;
+  Neighbours neighbours;
+};
+
+/// Those of some of the returns that are surrounded.
+std::vector<Surrounded> surrounded_returns(const PriorIndex::Impl& index) {
+  std::vector<Surrounded> found;
+  const auto stride = static_cast<std::uint32_t>(index.returns.size() / kSamples + 1);
+  for (const Return& center : index.returns) {
+    if (!is_chosen(center, stride)) continue;
+    const Eigen::Vector3d center_m = point_of(center);
     Neighbours neighbours;
     for (double radius = 2.0 * index.grid.cell_rad(); radius <= kWidestSearch_rad; radius *= 2.0) {
-      neighbours = look_around(index, {center.x_m, center.y_m, center.z_m}, radius);
+      neighbours = look_around(index, center_m, radius);
       if (neighbours.complete() || neighbours.looked_at > kReturnsAround) break;
     }
-    if (!neighbours.complete()) continue;
-    azimuth.push_back(std::sqrt(std::max(neighbours.east, neighbours.west)));
-    elevation.push_back(std::sqrt(std::max(neighbours.north, neighbours.south)));
+    if (neighbours.complete()) found.push_back({center_m.norm(), neighbours});
+  }
+  return found;
+}
+
+std::optional<Eigen::Vector2d> angular_resolution(std::span<const Surrounded> returns) {
+  std::vector<double> azimuth, elevation;
+  for (const auto& [range_m, around] : returns) {
+    azimuth.push_back(std::max(around.east.offset_rad(), around.west.offset_rad()));
+    elevation.push_back(std::max(around.north.offset_rad(), around.south.offset_rad()));
   }
   if (azimuth.size() < 8) return std::nullopt;
   return Eigen::Vector2d(median(azimuth), median(elevation));
@@ -132,22 +156,21 @@ std::optional<double> sentinel_range(const PointCloud& cloud) {
   return sentinel_among(ranges_of(cloud, 1), kLeastReturns);
 }
 
-/// From the second differences of consecutive returns, which vanish on smooth surfaces: their spread is sqrt(1.5) times
-/// the noise of one. The median absolute deviation leaves edges out of account.
-std::optional<double> range_noise(const PointCloud& cloud, double spacing_rad) {
-  constexpr std::size_t kSample = 50'000;
-  const std::size_t stride = std::max<std::size_t>(1, cloud.size() / kSample);
-  const double least_cosine = std::cos(std::min(2.0 * spacing_rad, 0.5));
-  std::vector<float> deviations_m;
-  for (std::size_t i = 1; i + 1 < cloud.size(); i += stride) {
-    const float before = cloud[i - 1].norm(), here = cloud[i].norm(), after = cloud[i + 1].norm();
-    if (!(before > 0.0f && here > 0.0f && after > 0.0f && std::isfinite(before + here + after))) continue;
-    const bool adjacent = cloud[i].dot(cloud[i - 1]) >= least_cosine * here * before &&
-                          cloud[i].dot(cloud[i + 1]) >= least_cosine * here * after;
-    if (adjacent) deviations_m.push_back(std::abs(here - 0.5f * (before + after)));
+/// From how far returns are from where those on both sides of them would have a plane, in which the inverse range is
+/// linear in the (tangent of the) angle. The median absolute deviation leaves edges out of account.
+std::optional<double> range_noise(std::span<const Surrounded> returns, double spacing_rad) {
+  constexpr std::size_t kLeast = 100;
+  std::vector<double> deviations_m;
+  for (const auto& [range_m, around] : returns) {
+    const double east = around.east.offset_rad(), west = around.west.offset_rad();
+    if (std::max(east, west) > 2.0 * spacing_rad) continue;
+    const double weight_east = west / (east + west), weight_west = east / (east + west);
+    const double expected_m = 1.0 / (weight_east / around.east.range_m + weight_west / around.west.range_m);
+    const double variances = 1.0 + weight_east * weight_east + weight_west * weight_west;
+    deviations_m.push_back(std::abs(range_m - expected_m) / std::sqrt(variances));
   }
-  if (deviations_m.size() < 100) return std::nullopt;
-  return 1.4826 * median(std::move(deviations_m)) / std::sqrt(1.5);
+  if (deviations_m.size() < kLeast) return std::nullopt;
+  return 1.4826 * median(std::move(deviations_m));
 }
 
 }  // namespace
@@ -157,9 +180,10 @@ SensorModel estimate_sensor(const PointCloud& cloud) { return estimate_sensor(cl
 SensorModel estimate_sensor(const PointCloud& cloud, const PriorIndex& index) {
   SensorModel model;
   model.no_return_m = sentinel_range(cloud);
-  model.angular_resolution_rad = angular_resolution(index.impl());
+  const std::vector<Surrounded> returns = surrounded_returns(index.impl());
+  model.angular_resolution_rad = angular_resolution(returns);
   if (model.angular_resolution_rad) {
-    model.range_noise_m = range_noise(cloud, model.angular_resolution_rad->maxCoeff());
+    model.range_noise_m = range_noise(returns, model.angular_resolution_rad->maxCoeff());
   }
   return model;
 }

@@ -73,15 +73,18 @@ class Neighbourhood {
 double smoothness_around(const ScanView& view, const Eigen::Vector3d& center_m, double distance_m) {
   constexpr std::size_t kLeast = 3, kMost = 100;
   const PriorIndex::Impl& index = view.index.impl();
-  std::vector<Eigen::Vector3d> near_m;
-  for_each_return_around(index, center_m, distance_m,
-                         [&](std::uint32_t i) { near_m.push_back(point_of(index.returns[i])); });
-  if (near_m.size() < kLeast) return 1.0;
-  const std::size_t step = (near_m.size() - 1) / kMost + 1;
+  std::vector<std::uint32_t> near;
+  for_each_return_around(index, center_m, distance_m, [&](std::uint32_t i) { near.push_back(i); });
+  if (near.size() < kLeast) return 1.0;
+  const auto stride = static_cast<std::uint32_t>((near.size() - 1) / kMost + 1);
   double sum = 0.0;
   std::size_t count = 0;
-  for (std::size_t k = 0; k < near_m.size(); k += step, ++count) sum += Neighbourhood(view, near_m[k]).smoothness();
-  return sum / static_cast<double>(count);
+  for (const std::uint32_t i : near) {
+    if (!is_chosen(index.returns[i], stride)) continue;
+    sum += Neighbourhood(view, point_of(index.returns[i])).smoothness();
+    ++count;
+  }
+  return count == 0 ? 1.0 : sum / static_cast<double>(count);
 }
 
 double smoothness_of(const ScanView& view, std::span<const std::uint32_t> members) {

@@ -345,7 +345,6 @@ bool order_of_points_changes_nothing(std::uint32_t seed) {
   PointCloud points;
   for (const std::size_t i : order) points.push_back(scan.points.x_m[i], scan.points.y_m[i], scan.points.z_m[i]);
   Taken shuffled = taken(std::move(points), scan.world_from_sensor, scan.captured_at);
-  shuffled.sensor = scan.sensor;
   const auto straight = compared(scan, priors, parameters(Grouping::consensus));
   const auto mixed = compared(shuffled, priors, parameters(Grouping::consensus));
   for (std::size_t i = 0; i < order.size(); ++i) {

@@ -38,9 +38,11 @@ TEST_CASE("the angular resolution is found in any order of the points, separatel
   PointCloud shuffled;
   for (const std::size_t i : order) shuffled.push_back(scan.points.x_m[i], scan.points.y_m[i], scan.points.z_m[i]);
   check(estimate_sensor(shuffled));
+  CHECK(estimate_sensor(shuffled).angular_resolution_rad == estimate_sensor(scan.points).angular_resolution_rad);
+  CHECK(estimate_sensor(shuffled).range_noise_m == estimate_sensor(scan.points).range_noise_m);
 }
 
-TEST_CASE("the range noise is found from consecutive returns") {
+TEST_CASE("the range noise is found from neighbouring returns") {
   Scanner scanner = grid_scanner({.step_rad = radians(0.5)});
   scanner.errors.range_noise_m = 0.02;
   const SensorModel model = estimate_sensor(take_scan(RayCaster(room()), scanner, exact_plan(Pose{}, 3)).points);
