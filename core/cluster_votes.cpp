@@ -139,10 +139,11 @@ double porosity_of(const ScanView& view, std::span<const std::uint32_t> members,
 }
 
 bool is_scattered(const ScanView& view, std::span<const std::uint32_t> members) {
-  constexpr std::size_t kFew = 12;
-  constexpr double kSurface =
-      0.4;  // what stands alone has 0.46 at two by three shots; a line of them has less than 0.25
-  return members.size() < kFew && smoothness_of(view, members) < kSurface;
+  constexpr std::size_t kFew = 12, kNotMany = 40;
+  // What stands alone has 0.46 at two by three shots; a line of shots, such as a silhouette, has less than 0.25.
+  constexpr double kSurface = 0.4, kLine = 0.3;
+  if (members.size() >= kNotMany) return false;
+  return smoothness_of(view, members) < (members.size() < kFew ? kSurface : kLine);
 }
 
 double log_odds_of_change(const ClusterVotes& votes, double porosity) {

@@ -38,7 +38,8 @@ std::optional<ClusterVotes> votes_of(const ScanView& view, std::span<const std::
 double porosity_of(const ScanView& view, std::span<const std::uint32_t> members, const CompareParameters& parameters);
 
 /// Whether a small cluster is no surface: most of the scan's shots beside its points return from elsewhere. So look
-/// mixed returns at a silhouette, and single ones of a fence or of grass that happen to lie together.
+/// mixed returns at a silhouette, a silhouette that is one shot wide, and single returns of a fence or of grass that
+/// happen to lie together.
 bool is_scattered(const ScanView& view, std::span<const std::uint32_t> members);
 
 /// The logarithm of the odds that a cluster truly changed, which the votes of one scan and its porosity tell: a
