@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "core/returns_near.hpp"
@@ -85,14 +86,12 @@ class Surround {
   bool west_ = false, east_ = false, south_ = false, north_ = false;
 };
 
-}  // namespace
-
 /// Counts the rays of one scan through one cluster.
 class RayCounter {
  public:
   RayCounter(const PriorIndex::Impl& cluster, const PriorIndex::Impl& rays, const RaySearch& search,
              const Crossing* crossing)
-      : cluster_(cluster), rays_(rays), search_(search), crossing_(crossing), surfaces_(cluster.returns.size()) {}
+      : cluster_(cluster), rays_(rays), search_(search), crossing_(crossing) {}
 
   std::size_t operator()() {
     std::size_t through = 0;
@@ -127,17 +126,20 @@ class RayCounter {
     if (!surround.lets_through(search_.margin_m)) return false;
     if (crossing_ == nullptr) return true;
     const Eigen::Vector3d member_m = point_of(cluster_.returns[surround.nearest()]);
-    std::optional<std::optional<PlanePatch>>& surface = surfaces_[surround.nearest()];
-    if (!surface) surface = crossing_->surface_at(member_m);
-    return crossing_->crosses(*surface, member_m, end_m);
+    const auto [known, is_new] = surfaces_.try_emplace(surround.nearest());
+    if (is_new) known->second = crossing_->surface_at(member_m);
+    return crossing_->crosses(known->second, member_m, end_m);
   }
 
   const PriorIndex::Impl& cluster_;
   const PriorIndex::Impl& rays_;
   RaySearch search_;
   const Crossing* crossing_;
-  std::vector<std::optional<std::optional<PlanePatch>>> surfaces_;  ///< at the members; looked up once
+  std::unordered_map<std::uint32_t, std::optional<PlanePatch>>
+      surfaces_;  ///< at members, as far as they were asked for
 };
+
+}  // namespace
 
 std::size_t count_rays(const PriorIndex::Impl& cluster, const PriorIndex::Impl& rays, const RaySearch& search,
                        const Crossing* crossing) {

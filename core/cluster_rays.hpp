@@ -18,16 +18,17 @@ class Crossing {
   /// @param margin_m how far behind the surface a ray must end at least
   Crossing(const ScanView& view, const ScanView& asked, double margin_m);
 
-  /// Whether any ray of `asked` that passed a point of the view crossed the surface there; where the view shows none,
-  /// every ray did. All in the frame of `asked`; rays are given by their ends.
+  // Points and rays, which are given by their ends, are in the frame of `asked`.
+
+  /// The surface that the view shows at one of its points, if it shows one.
+  std::optional<PlanePatch> surface_at(const Eigen::Vector3d& point_m) const;
+  /// Whether a ray of `asked` that passed the point crossed the surface there; without a surface every ray did.
+  bool crosses(const std::optional<PlanePatch>& surface, const Eigen::Vector3d& point_m,
+               const Eigen::Vector3d& end_m) const;
+  /// Whether any of several rays crossed the surface at a point.
   bool any_of(const Eigen::Vector3d& point_m, std::span<const Eigen::Vector3d> ends_m) const;
 
  private:
-  friend class RayCounter;
-  std::optional<PlanePatch> surface_at(const Eigen::Vector3d& point_m) const;
-  bool crosses(const std::optional<PlanePatch>& surface, const Eigen::Vector3d& point_m,
-               const Eigen::Vector3d& end_m) const;
-
   PatchFitter fit_;
   Pose view_from_asked_;
   double margin_m_;

@@ -1,13 +1,16 @@
 #include "core/cluster_votes.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "core/assumed_sensor.hpp"
 #include "core/cluster_rays.hpp"
+#include "core/median.hpp"
 #include "core/nearest_return.hpp"
 #include "core/returns_near.hpp"
 #include "core/smoothness.hpp"
+#include "core/spread_sample.hpp"
 
 namespace raywatch {
 namespace {
@@ -24,10 +27,9 @@ struct Sample {
 
 Sample sample_of(const ScanView& view, std::span<const std::uint32_t> members, const ScanView& asked) {
   const Pose asked_from_view = asked.world_from_sensor.inverse() * view.world_from_sensor;
-  const std::size_t step = (members.size() - 1) / kMostLookedAt + 1;
   Sample sample;
-  for (std::size_t k = 0; k < members.size(); k += step) {
-    sample.own_m.emplace_back(view.points[members[k]].cast<double>());
+  for (const std::uint32_t i : thinned(members, kMostLookedAt)) {
+    sample.own_m.emplace_back(view.points[i].cast<double>());
     sample.asked_m.push_back(asked_from_view * sample.own_m.back());
   }
   return sample;
@@ -91,9 +93,7 @@ double clearance_m(const ScanView& asked, const Eigen::Vector3d& point_m) {
 double median_clearance_m(const ScanView& asked, const Sample& sample) {
   std::vector<double> distances_m;
   for (const Eigen::Vector3d& point_m : sample.asked_m) distances_m.push_back(clearance_m(asked, point_m));
-  const auto median = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
-  std::nth_element(distances_m.begin(), median, distances_m.end());
-  return *median;
+  return median(std::move(distances_m));
 }
 
 }  // namespace

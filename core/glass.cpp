@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/assumed_sensor.hpp"
+#include "core/median.hpp"
 #include "core/plane_patch.hpp"
 #include "core/returns_near.hpp"
+#include "core/spread_sample.hpp"
 
 namespace raywatch {
 namespace {
@@ -25,10 +28,9 @@ constexpr double kInLine = 2.5;
 /// Some members of a cluster in the frame of the scan that is asked.
 std::vector<Eigen::Vector3d> some_of(const ScanView& view, std::span<const std::uint32_t> members,
                                      const Pose& asked_from_view) {
-  const std::size_t step = (members.size() - 1) / kMostMembers + 1;
   std::vector<Eigen::Vector3d> points_m;
-  for (std::size_t k = 0; k < members.size(); k += step) {
-    points_m.push_back(asked_from_view * view.points[members[k]].cast<double>());
+  for (const std::uint32_t i : thinned(members, kMostMembers)) {
+    points_m.push_back(asked_from_view * view.points[i].cast<double>());
   }
   return points_m;
 }
@@ -63,9 +65,7 @@ double facing(const Plane& plane, const Eigen::Vector3d& point_m, const Eigen::V
 double median_facing(const Plane& plane, std::span<const Eigen::Vector3d> points_m, const Eigen::Vector3d& sensor_m) {
   std::vector<double> cosines;
   for (const Eigen::Vector3d& p : points_m) cosines.push_back(facing(plane, p, sensor_m));
-  const auto median = cosines.begin() + static_cast<std::ptrdiff_t>(cosines.size() / 2);
-  std::nth_element(cosines.begin(), median, cosines.end());
-  return *median;
+  return median(std::move(cosines));
 }
 
 /// Some of the returns within reach of a cluster that lie on its plane, in an order that does not depend on the scan's.
@@ -80,10 +80,7 @@ std::vector<Eigen::Vector3d> returns_on(const Plane& plane, const ScanView& aske
   std::sort(on.begin(), on.end(), [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
   });
-  const std::size_t step = on.empty() ? 1 : (on.size() - 1) / kMost + 1;
-  std::vector<Eigen::Vector3d> some;
-  for (std::size_t k = 0; k < on.size(); k += step) some.push_back(on[k]);
-  return some;
+  return thinned(std::span<const Eigen::Vector3d>(on), kMost);
 }
 
 }  // namespace

@@ -49,21 +49,21 @@ class Judge {
       : view_(view), asked_(asked), parameters_(parameters) {}
 
   bool is_sure(const std::vector<std::uint32_t>& cluster) const {
-    constexpr std::size_t kLeastPoints = 5;
-    return cluster.size() >= kLeastPoints &&
-           std::any_of(asked_.begin(), asked_.end(), [&](const ScanView& scan) { return saw_free(scan, cluster); });
+    constexpr std::size_t kLeastPoints = 5, kRaysThroughScattered = 6;
+    if (cluster.size() < kLeastPoints) return false;
+    const double least = least_log_odds();
+    std::optional<double> porosity;  // needed of few clusters, whichever scan is asked
+    return std::any_of(asked_.begin(), asked_.end(), [&](const ScanView& scan) {
+      const std::optional<ClusterVotes> votes = votes_of(view_, cluster, scan, parameters_, least);
+      if (!votes) return false;
+      if (!porosity) porosity = porosity_of(view_, cluster, parameters_);
+      return log_odds_of_change(*votes, *porosity) >= least &&
+             (votes->rays_through >= kRaysThroughScattered || !is_scattered(view_, cluster)) &&
+             !may_be_glass(view_, cluster, scan);
+    });
   }
 
  private:
-  bool saw_free(const ScanView& scan, const std::vector<std::uint32_t>& cluster) const {
-    constexpr std::size_t kRaysThroughScattered = 6;
-    const double least = least_log_odds();
-    const std::optional<ClusterVotes> votes = votes_of(view_, cluster, scan, parameters_, least);
-    return votes && log_odds_of_change(*votes, porosity_of(view_, cluster, parameters_)) >= least &&
-           (votes->rays_through >= kRaysThroughScattered || !is_scattered(view_, cluster)) &&
-           !may_be_glass(view_, cluster, scan);
-  }
-
   /// Hardly any false cluster of the simulated places reaches it. Where leaves and grass are to be reckoned with, fifty
   /// clusters of free points are false for one that truly changed; elsewhere six.
   double least_log_odds() const { return parameters_.foliage_distance_m > 0.0 ? 1.2 : 0.7; }

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/median.hpp"
 #include "core/prior_index_impl.hpp"
 
 namespace raywatch {
@@ -17,13 +18,6 @@ constexpr std::size_t kSamples = 600;  // at least half as many are taken of a s
 constexpr double kWidestSearch_rad = 0.2;
 /// Where so many returns lie around one and none on one of its sides, it stands at the edge of what the sensor sees.
 constexpr std::size_t kReturnsAround = 800;
-
-template <class T>
-T median(std::vector<T> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The axes of the plane that touches the unit sphere in a direction.
 struct TangentPlane {
@@ -133,6 +127,7 @@ std::vector<float> ranges_of(const PointCloud& cloud, std::size_t stride) {
 /// A real farthest range is that of few returns; a sentinel is that of many, and all of them to the millimetre.
 std::optional<double> sentinel_among(const std::vector<float>& ranges_m, std::size_t least_returns) {
   constexpr double kLeastShare = 0.005;
+  constexpr double kToTheMillimetre_m = 2e-3;
   double farthest_m = 0.0;
   std::size_t measured = 0;
   for (const float range_m : ranges_m) {
@@ -141,7 +136,7 @@ std::optional<double> sentinel_among(const std::vector<float>& ranges_m, std::si
     farthest_m = std::max<double>(farthest_m, range_m);
   }
   const auto at_the_end = static_cast<std::size_t>(std::count_if(ranges_m.begin(), ranges_m.end(), [&](float range_m) {
-    return std::isfinite(range_m) && range_m >= farthest_m - kNoReturnBand_m;
+    return std::isfinite(range_m) && range_m >= farthest_m - kToTheMillimetre_m;
   }));
   const auto needed = std::max(least_returns, static_cast<std::size_t>(kLeastShare * static_cast<double>(measured)));
   if (measured == 0 || at_the_end < needed) return std::nullopt;

@@ -22,10 +22,11 @@ class PriorIndex;
 /// What one scan shows about the sensor that took it:
 /// - `angular_resolution_rad`: the medians of the angular distance to the neighbouring returns on either side, and
 /// above
-///   and below, whatever the order of the returns is;
+///   and below;
 /// - `no_return_m`: a range that an implausible share of the returns has to the millimetre and none exceeds;
-/// - `range_noise_m`: from second differences of consecutive returns, where the order of the returns allows it.
-/// Fields that the scan does not show stay empty. Deterministic; O(n).
+/// - `range_noise_m`: from how far returns are from the planes through their neighbours on either side.
+/// The first and the last do not depend on the order of the returns. Fields that the scan does not show stay empty.
+/// Deterministic; O(n).
 SensorModel estimate_sensor(const PointCloud& cloud);
 /// The same with an index of the cloud's returns that is there already.
 SensorModel estimate_sensor(const PointCloud& cloud, const PriorIndex& index);

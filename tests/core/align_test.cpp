@@ -256,6 +256,7 @@ TEST_CASE("a prior with a wrong pose is left out of a comparison, and one that s
   const AlignedPriors aligned_priors = align_priors(scan.at_true_pose(), priors, {});
   REQUIRE(aligned_priors.alignments.size() == 2);
   CHECK(aligned_priors.alignments[0].state == RegistrationState::bad);
+  CHECK(aligned_priors.alignments[0].uncertainty.position_m > 2.0 * AlignParameters{}.reported.position_m);
   CHECK(aligned_priors.alignments[1].state == RegistrationState::moved);
   REQUIRE(aligned_priors.usable.size() == 1);
   CHECK((aligned_priors.usable[0].world_from_sensor.position_m - good.scan.true_world_from_sensor.position_m).norm() <

@@ -5,7 +5,6 @@
 #include <doctest/doctest.h>
 
 #include <limits>
-
 #include <random>
 
 #include "core/cluster_votes.hpp"

@@ -109,6 +109,10 @@ TEST_CASE("single returns of a fence are scattered, a small thing is not") {
   }
   REQUIRE(fence.size() < 12);
   CHECK(is_scattered(scan.view(), fence));
+  std::vector<std::uint32_t> line;  // a corner, one shot wide
+  for (int row = -7; row <= 7; ++row) line.push_back(shot(-10, row));
+  const Taken corner(shoot([](int column, int row) { return column == -10 && std::abs(row) <= 7 ? 20.0 : 40.0; }));
+  CHECK(is_scattered(corner.view(), line));
   CHECK_FALSE(is_scattered(scan.view(), thing));
 }
 

@@ -2,14 +2,12 @@
 // There is no graphics card in it: Chromium draws in software, so what is told of frames is their script alone.
 
 import { type Page } from '@playwright/test';
-import { spawnSync } from 'node:child_process';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { kBuild, kYard, kYardScans } from './support/build';
+import { kYard, kYardScans, simulateLab } from './support/build';
 import { Daemon } from './support/daemon';
 import { expect, test } from './support/fixtures';
 
-/** A scan of a room, as many times as dense as its usual scanner makes one; 113,000 points each. */
 const kClouds = [
   { name: '1 million points', density: 9 },
   { name: '5 million points', density: 44 },
@@ -106,11 +104,7 @@ for (const { name, density } of kClouds) {
   test(name, async ({ page, daemon }) => {
     test.setTimeout(240_000);
     const folder = join(tmpdir(), `raywatch-bench-${density}`);
-    const made = spawnSync(join(kBuild, 'raywatch-simulate'), [
-      'lab',
-      ...['--output', folder, '--scans', '1', '--density', String(density)],
-    ]);
-    expect(made.status).toBe(0);
+    simulateLab(folder, density);
     await makeLab(daemon, folder);
     await timeFrames(page);
     const begun_ms = performance.now();

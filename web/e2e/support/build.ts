@@ -23,6 +23,11 @@ export function simulatePit(folder = kPit, density = 0.12): void {
   simulate('pit', folder, ['--seed', '3', '--density', String(density), '--start', '2026-03-01T02:00:00Z']);
 }
 
+/** One scan of a room, as many times as dense as its usual scanner makes one; 113,000 points each. */
+export function simulateLab(folder: string, density: number): void {
+  simulate('lab', folder, ['--scans', '1', '--density', String(density)]);
+}
+
 function simulate(family: string, folder: string, options: readonly string[]): void {
   if (existsSync(resolve(folder, 'manifest.json'))) return;
   const made = spawnSync(resolve(kBuild, 'raywatch-simulate'), [family, '--output', folder, ...options], {
