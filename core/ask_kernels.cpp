@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 #include "core/inquiry.hpp"
 
@@ -28,23 +30,6 @@ FloatMask supported_by_cell(const PreparedPrior& prior, const RangeBand& band, c
   return hn::And(band.supports(least, greatest), lookup.in_band);
 }
 
-/// Which of the `wanted` points the bounds of cells support that lie inside of the cone wherever in its own cell the
-/// axis is: that cell, then those above and below it.
-FloatMask supported_at_once(const PreparedPrior& prior, const Spherical& point, FloatMask wanted) {
-  const FloatTag d;
-  if (!prior.own_cell_is_inside) return hn::FirstN(d, 0);
-  const DirectionGridView grid = prior.index.grid.view();
-  const RangeBand band(point.range, prior.thresholds.range_m);
-  FloatMask supported = hn::And(wanted, supported_by_cell(prior, band, grid, point.azimuth, point.elevation));
-  if (!prior.cells_above_and_below_are_inside) return supported;
-  for (const float step : {grid.cell_rad, -grid.cell_rad}) {
-    if (hn::AllFalse(d, hn::AndNot(supported, wanted))) break;
-    const Floats elevation = hn::Add(point.elevation, constant(step));
-    supported = hn::Or(supported, hn::And(wanted, supported_by_cell(prior, band, grid, point.azimuth, elevation)));
-  }
-  return supported;
-}
-
 /// The lanes among the first `count` that `valid` holds for.
 FloatMask valid_lanes(const std::uint8_t* valid, std::size_t count) {
   const hn::Rebind<std::uint8_t, FloatTag> bytes;
@@ -62,29 +47,59 @@ void ask_own_cells(const PreparedPrior& prior, const PointPlanes& points, const 
                    const RigidMotion& motion, Answer* answers, OpenPoints& open) {
   const FloatTag d;
   const IntTag di;
+  const hn::Rebind<std::uint8_t, FloatTag> bytes;
+  const DirectionGridView grid = prior.index.grid.view();
   const std::size_t lanes = hn::Lanes(d);
   for (std::size_t i = 0; i < points.size; i += lanes) {
     const std::size_t count = std::min(lanes, points.size - i);
-    const Coordinates p = moved(motion, points, i, count);
-    const Floats horizontal = hn::Sqrt(hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y)));
-    const Spherical s = spherical_of(p);
     const FloatMask is_valid = valid_lanes(valid + i, count);
-    const FloatMask supported = supported_at_once(prior, s, is_valid);
+    if (hn::AllFalse(d, is_valid)) {
+      std::fill_n(answers + i, count, Answer::unseen);
+      continue;
+    }
+    const Coordinates p = moved(motion, points, i, count);
+    const Spherical s = spherical_of(p);
+    FloatMask supported = hn::FirstN(d, 0);
+    if (prior.own_cell_is_inside) {
+      const RangeBand band(s.range, prior.thresholds.range_m);
+      supported = hn::And(is_valid, supported_by_cell(prior, band, grid, s.azimuth, s.elevation));
+    }
     constexpr auto kUnseen = static_cast<int>(Answer::unseen), kSupported = static_cast<int>(Answer::supported);
-    const hn::Rebind<std::uint8_t, FloatTag> bytes;
     const Ints answer = hn::IfThenElse(hn::RebindMask(di, supported), hn::Set(di, kSupported), hn::Set(di, kUnseen));
     std::uint8_t stored[kMostLanes];
     hn::StoreU(hn::DemoteTo(bytes, answer), bytes, stored);
-    for (std::size_t lane = 0; lane < count; ++lane) answers[i + lane] = static_cast<Answer>(stored[lane]);
+    std::memcpy(answers + i, stored, count);
     const FloatMask is_open = hn::AndNot(supported, is_valid);
     if (hn::AllFalse(d, is_open)) continue;
+    const Floats horizontal = hn::Sqrt(hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y)));
+    const Floats cosine = hn::Div(horizontal, hn::Max(s.range, constant(1e-37f)));
     const Ints place = hn::Add(hn::Set(di, static_cast<std::int32_t>(i)), hn::Iota(di, 0));
-    const std::size_t end = open.size;
-    open.size += hn::CompressStore(place, hn::RebindMask(di, is_open), di, open.place + end);
-    hn::CompressStore(s.range, is_open, d, open.range_m + end);
-    hn::CompressStore(s.azimuth, is_open, d, open.azimuth_rad + end);
-    hn::CompressStore(s.elevation, is_open, d, open.elevation_rad + end);
-    hn::CompressStore(hn::Div(horizontal, hn::Max(s.range, constant(1e-37f))), is_open, d, open.cosine + end);
+    open.append(place, {s.range, s.azimuth, s.elevation}, cosine, is_open);
+  }
+}
+
+/// The same for what is open, with the cells one row up and down.
+void ask_cells_above_and_below(const PreparedPrior& prior, Answer* answers, OpenPoints& open) {
+  if (!prior.cells_above_and_below_are_inside) return;
+  const FloatTag d;
+  const DirectionGridView grid = prior.index.grid.view();
+  const std::size_t size = std::exchange(open.size, 0);
+  for (std::size_t k = 0; k < size; k += hn::Lanes(d)) {
+    const std::size_t count = std::min(hn::Lanes(d), size - k);
+    const FloatMask present = hn::FirstN(d, count);
+    const Spherical s = open.directions(k);
+    const Floats cosine = hn::LoadU(d, open.cosine + k);
+    const Ints place = hn::LoadU(IntTag(), open.place + k);
+    const RangeBand band(s.range, prior.thresholds.range_m);
+    FloatMask supported = hn::FirstN(d, 0);
+    for (const float step : {grid.cell_rad, -grid.cell_rad}) {
+      const Floats elevation = hn::Add(s.elevation, constant(step));
+      supported = hn::Or(supported, supported_by_cell(prior, band, grid, s.azimuth, elevation));
+    }
+    for (std::uint32_t bits = bits_of(hn::And(supported, present)); bits != 0; bits &= bits - 1) {
+      answers[open.place[k + static_cast<std::size_t>(std::countr_zero(bits))]] = Answer::supported;
+    }
+    open.append(place, s, cosine, hn::AndNot(supported, present));
   }
 }
 
@@ -98,6 +113,7 @@ void ask_block_simd(const PreparedPrior& prior, const PointPlanes& points, const
     const PointPlanes block = points.subspan(begin, count);
     open.size = 0;
     ask_own_cells(prior, block, valid + begin, motion, answers + begin, open);
+    ask_cells_above_and_below(prior, answers + begin, open);
     for (std::size_t k = 0; k < open.size; k += hn::Lanes(FloatTag())) {
       const std::size_t lanes = std::min(hn::Lanes(FloatTag()), open.size - k);
       spans.find(hn::LoadU(FloatTag(), open.azimuth_rad + k), hn::LoadU(FloatTag(), open.elevation_rad + k),

@@ -110,13 +110,20 @@ class Cone {
     return result;
   }
 
+  /// floor(value) as a whole number, without the call that it is where the compiler must do without SSE 4.1.
+  static std::int64_t floor_of(double value) {
+    const auto whole = static_cast<std::int64_t>(value);
+    return value < static_cast<double>(whole) ? whole - 1 : whole;
+  }
+  static std::int64_t ceil_of(double value) { return -floor_of(-value); }
+
   static ConeRow columns_of(const DirectionGrid& grid, double azimuth_rad, std::uint32_t row, const Widths& half) {
     const auto columns = static_cast<std::int64_t>(grid.columns(row));
     const double per_rad = static_cast<double>(columns) / (2.0 * std::numbers::pi);
     const double center = grid.column_coordinate(row, azimuth_rad);
     ConeRow cover{.row = row,
-                  .first = static_cast<std::int64_t>(std::floor(center - half.outer_rad * per_rad)),
-                  .last = static_cast<std::int64_t>(std::floor(center + half.outer_rad * per_rad))};
+                  .first = floor_of(center - half.outer_rad * per_rad),
+                  .last = floor_of(center + half.outer_rad * per_rad)};
     if (cover.last - cover.first >= columns) {
       cover.first = 0;
       cover.last = columns - 1;
@@ -126,8 +133,8 @@ class Cone {
       cover.inner_last = cover.last;
     } else if (half.inner_rad > 0.0) {
       const double reach = half.inner_rad * per_rad;
-      cover.inner_first = std::max(cover.first, static_cast<std::int64_t>(std::ceil(center - reach)));
-      cover.inner_last = std::min(cover.last, static_cast<std::int64_t>(std::floor(center + reach)) - 1);
+      cover.inner_first = std::max(cover.first, ceil_of(center - reach));
+      cover.inner_last = std::min(cover.last, floor_of(center + reach) - 1);
     }
     return cover;
   }

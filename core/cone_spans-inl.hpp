@@ -122,18 +122,20 @@ class ConeSpans {
     return hn::Mul(hn::Mul(s, constant(0.25f)), hn::NegMulAdd(s, series, constant(1.0f)));
   }
 
-  /// The angle of which `value` / `scale` is the haversine, below 0.02, within `kRootError` of it; 0 when `value` is
-  /// negative.
+  /// The angle of which `value` / `scale` is the haversine, below `kMostHaversine`, within `kRootError` of it; 0 when
+  /// `value` is negative.
   struct Angle {
     Floats rad, haversine;
   };
   static constexpr float kRootError = 1e-3f;
+  static constexpr float kMostHaversine = 0.2f;
   static Angle angle_of_haversine(Floats value, Floats scale) {
     const Floats least = constant(1e-15f);
     const Floats root = hn::ApproximateReciprocalSqrt(hn::Max(hn::Mul(value, scale), hn::Mul(least, least)));
     const Floats sine = hn::Mul(hn::Max(value, hn::Zero(FloatTag())), root);
     const Floats q = hn::Mul(sine, sine);
-    const Floats series = hn::MulAdd(q, constant(3.0f / 40.0f), constant(1.0f / 6.0f));
+    const Floats high = hn::MulAdd(q, constant(15.0f / 336.0f), constant(3.0f / 40.0f));
+    const Floats series = hn::MulAdd(q, high, constant(1.0f / 6.0f));
     return {hn::Mul(hn::Add(sine, sine), hn::MulAdd(q, series, constant(1.0f))), q};
   }
 
@@ -161,9 +163,7 @@ class ConeSpans {
     const FloatTag d;
     const IntTag di;
     const Floats zero = hn::Zero(d), one = constant(1.0f);
-    const Ints index = hn::ConvertTo(di, hn::IfThenElseZero(active, row));
-    const Floats columns = hn::GatherIndex(d, grid_.columns, index);
-    const Ints base = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(grid_.first), index);
+    const auto [columns, base] = RowEntries(grid_, bounded_rows(grid_, row));
     const Floats bottom = hn::MulAdd(row, constant(grid_.cell_rad), constant(grid_.low_rad));
     const Floats above = hn::Sub(bottom, elevation);
     const Floats below = hn::Sub(elevation, hn::Add(bottom, constant(grid_.cell_rad)));
@@ -183,7 +183,7 @@ class ConeSpans {
     const Floats first = hn::Floor(hn::Sub(center, outer_columns)), last = hn::Floor(hn::Add(center, outer_columns));
     const FloatMask touches = hn::And(active, hn::Ge(outer, zero));
     const FloatMask wraps = hn::Or(hn::Lt(first, zero), hn::Ge(last, columns));
-    const FloatMask is_wide = hn::Or(hn::Gt(outer_angle.haversine, constant(0.019f)),
+    const FloatMask is_wide = hn::Or(hn::Gt(outer_angle.haversine, constant(0.99f * kMostHaversine)),
                                      hn::Ge(hn::Sub(last, first), constant(static_cast<float>(kMostColumns))));
     unfit_ = hn::Or(unfit_, hn::And(touches, hn::Or(wraps, is_wide)));
     const FloatMask usable = hn::AndNot(unfit_, touches);

@@ -27,6 +27,22 @@ struct OpenPoints {
   std::int32_t place[kMost + kMostLanes];
   float range_m[kMost + kMostLanes], azimuth_rad[kMost + kMostLanes], elevation_rad[kMost + kMostLanes];
   float cosine[kMost + kMostLanes];  ///< of the elevation
+
+  /// Adds the lanes of `mask`. Writes beyond them, up to a whole vector: some processors are slow to store less.
+  HWY_INLINE void append(Ints places, const Spherical& s, Floats cosines, FloatMask mask) {
+    const FloatTag d;
+    const IntTag di;
+    hn::StoreU(hn::Compress(places, hn::RebindMask(di, mask)), di, place + size);
+    hn::StoreU(hn::Compress(s.range, mask), d, range_m + size);
+    hn::StoreU(hn::Compress(s.azimuth, mask), d, azimuth_rad + size);
+    hn::StoreU(hn::Compress(s.elevation, mask), d, elevation_rad + size);
+    hn::StoreU(hn::Compress(cosines, mask), d, cosine + size);
+    size += hn::CountTrue(d, mask);
+  }
+  Spherical directions(std::size_t k) const {
+    const FloatTag d;
+    return {hn::LoadU(d, range_m + k), hn::LoadU(d, azimuth_rad + k), hn::LoadU(d, elevation_rad + k)};
+  }
 };
 
 /// Where ranges stand to rho - T_r and rho + T_r, for bounds of cells in single precision: each test only holds when no
@@ -91,6 +107,7 @@ class ConeWindow {
       if (is_nearer) return is_farther ? Answer::ambiguous : Answer::occluded;
     }
     list_cells(!is_nearer, !is_farther, remains);
+    if (is_nearer && remains.count == 0) return is_farther ? Answer::ambiguous : Answer::occluded;
     if (!borders_matter && remains.is_surrounded) return Answer::free;
     return std::nullopt;
   }
@@ -187,6 +204,7 @@ class ConeWindow {
       for_each_vector_of(row, [&](const Cells& cells, std::int32_t k) HWY_ATTR {
         const FloatMask full = hn::Le(cells.least, cells.greatest), border = hn::AndNot(cells.inside, full);
         FloatMask listed = cells.open;
+        if (!with_nearer && !with_farther) listed = hn::AndNot(are_settled(cells, span.first + k), listed);
         if (with_nearer) listed = hn::Or(listed, hn::And(border, hn::Le(cells.greatest, band_.near)));
         if (with_farther) listed = hn::Or(listed, hn::And(border, hn::Ge(cells.least, band_.far)));
         for (std::uint32_t bits = bits_of(listed); bits != 0; bits &= bits - 1) {
@@ -201,6 +219,15 @@ class ConeWindow {
       });
     }
     remains.is_surrounded = west && east && south && north;
+  }
+
+  /// The cells of no more than two returns, none of which lies in the band: the bounds are all that there is of them.
+  HWY_INLINE FloatMask are_settled(const Cells& cells, std::int32_t first_cell) const {
+    const IntTag di;
+    const auto* first = reinterpret_cast<const std::int32_t*>(index_.first.data()) + first_cell;
+    const Ints returns = hn::Sub(hn::LoadU(di, first + 1), hn::LoadU(di, first));
+    const FloatMask few = hn::RebindMask(FloatTag(), hn::Lt(returns, hn::Set(di, 3)));
+    return hn::And(few, hn::And(hn::Le(cells.least, band_.near), hn::Ge(cells.greatest, band_.far)));
   }
 
   const PriorIndex::Impl& index_;

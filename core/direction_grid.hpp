@@ -27,8 +27,9 @@ Direction direction_of(Scalar x, Scalar y, Scalar z) {
 
 /// The tables of a `DirectionGrid` as vector code reads them. Cell = first[row] + column, with
 /// row = floor((elevation - low) * rows_per_rad) and column = floor((azimuth / 2 pi + 1/2) * columns[row]), each kept
-/// within its bounds.
+/// within its bounds. The tables may be loaded `kPadding` entries past their ends.
 struct DirectionGridView {
+  static constexpr std::size_t kPadding = 16;
   float low_rad = 0.0f;
   float rows_per_rad = 1.0f;
   std::int32_t rows = 0;
@@ -47,7 +48,8 @@ class DirectionGrid {
   /// @param low_rad,high_rad the band of elevations. @param cell_rad the height of a row, > 0.
   DirectionGrid(double low_rad, double high_rad, double cell_rad) : low_rad_(low_rad), cell_rad_(cell_rad) {
     const auto rows = static_cast<std::size_t>(std::floor((high_rad - low_rad) / cell_rad)) + 1;
-    first_.reserve(rows + 1);
+    first_.reserve(rows + 1 + DirectionGridView::kPadding);
+    columns_.reserve(rows + DirectionGridView::kPadding);
     first_.push_back(0);
     for (std::size_t row = 0; row < rows; ++row) {
       const double bottom = row_bottom_rad(row), top = bottom + cell_rad;
@@ -61,10 +63,13 @@ class DirectionGrid {
       first_.push_back(first_.back() + columns);
       columns_.push_back(static_cast<float>(columns));
     }
+    cells_ = first_.back();
+    first_.resize(first_.size() + DirectionGridView::kPadding);
+    columns_.resize(columns_.size() + DirectionGridView::kPadding);
   }
 
-  std::size_t rows() const { return first_.empty() ? 0 : first_.size() - 1; }
-  std::size_t cells() const { return first_.empty() ? 0 : first_.back(); }
+  std::size_t rows() const { return least_cosine_.size(); }
+  std::size_t cells() const { return cells_; }
   std::uint32_t first_cell(std::size_t row) const { return first_[row]; }
   std::uint32_t columns(std::size_t row) const { return first_[row + 1] - first_[row]; }
   DirectionGridView view() const {
@@ -104,8 +109,9 @@ class DirectionGrid {
   double low_rad_ = 0.0;
   double cell_rad_ = 1.0;
   std::vector<float> least_cosine_, greatest_cosine_;
-  std::vector<float> columns_;
-  std::vector<std::uint32_t> first_;  ///< first cell of each row, and the number of cells
+  std::vector<float> columns_;        ///< one a row, and padding
+  std::vector<std::uint32_t> first_;  ///< first cell of each row, the number of cells, and padding
+  std::size_t cells_ = 0;
 };
 
 }  // namespace raywatch

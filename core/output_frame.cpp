@@ -8,9 +8,14 @@
 namespace raywatch {
 
 void check_grid(const MineGrid& grid) {
+  // Beyond it doubles no longer tell millimetres well apart; all grids on Earth are far smaller.
+  constexpr double kFarthest_m = 1e9;
   std::vector<FieldError> errors;
-  if (!grid.site_origin_m.allFinite()) errors.push_back({"site_origin_m", "must be three numbers"});
-  if (!grid.grid_origin_m.allFinite()) errors.push_back({"grid_origin_m", "must be three numbers"});
+  const auto require_place = [&](const Eigen::Vector3d& place_m, const char* field) {
+    if (!(place_m.array().abs() <= kFarthest_m).all()) errors.push_back({field, "must be three numbers within 1e9 m"});
+  };
+  require_place(grid.site_origin_m, "site_origin_m");
+  require_place(grid.grid_origin_m, "grid_origin_m");
   if (!std::isfinite(grid.rotation_rad)) errors.push_back({"rotation_deg", "must be a number"});
   if (!(grid.scale >= 0.9 && grid.scale <= 1.1)) errors.push_back({"scale", "must be 0.9..1.1; 1 does not stretch"});
   if (!errors.empty()) throw InvalidInput("The mine grid is not one.", errors);

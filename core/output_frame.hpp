@@ -15,8 +15,8 @@ struct MineGrid {
   double scale = 1.0;                                       ///< grid metres a site metre, horizontally
 };
 
-/// @throws InvalidInput naming every member that is not finite, or a scale that is not within 0.9..1.1: a grid's scale
-/// is that of a projection, a few parts in ten thousand.
+/// @throws InvalidInput naming every member that is not finite, a place beyond 1e9 m, or a scale that is not within
+/// 0.9..1.1: a grid's scale is that of a projection, a few parts in ten thousand.
 void check_grid(const MineGrid& grid);
 
 /// In which coordinates results of a site go out. Inside, places are relative to the site's origin ("local").

@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/direction_grid.hpp"
@@ -61,6 +62,35 @@ inline Spherical spherical_of(const Coordinates& p) {
   return {hn::Sqrt(hn::MulAdd(p.z, p.z, horizontal2)), angle_of(p.y, p.x), angle_of(p.z, hn::Sqrt(horizontal2))};
 }
 
+/// What the tables of a grid say of one vector of rows, each of which must be one of the grid's. The rows of
+/// neighbouring points lie close together: then a load and a shuffle serve instead of gathering.
+struct RowEntries {
+  RowEntries(const DirectionGridView& grid, Ints row) {
+    const FloatTag d;
+    const IntTag di;
+    const auto* first_cells = reinterpret_cast<const std::int32_t*>(grid.first);
+    static_assert(kMostLanes <= DirectionGridView::kPadding);
+    const auto lanes = static_cast<std::int32_t>(hn::Lanes(di));
+    const std::int32_t base = std::max(0, hn::GetLane(row) - lanes / 2);
+    const Ints offset = hn::Sub(row, hn::Set(di, base));
+    if (hn::AllTrue(di, hn::AndNot(hn::Lt(offset, hn::Zero(di)), hn::Lt(offset, hn::Set(di, lanes))))) {
+      columns = hn::TableLookupLanes(hn::LoadU(d, grid.columns + base), hn::IndicesFromVec(d, offset));
+      first = hn::TableLookupLanes(hn::LoadU(di, first_cells + base), hn::IndicesFromVec(di, offset));
+    } else {
+      columns = hn::GatherIndex(d, grid.columns, row);
+      first = hn::GatherIndex(di, first_cells, row);
+    }
+  }
+  Floats columns;
+  Ints first;
+};
+
+/// Rows as whole numbers, those that are none of the grid's moved to its nearest.
+inline Ints bounded_rows(const DirectionGridView& grid, Floats row) {
+  const IntTag di;
+  return hn::Min(hn::Max(hn::ConvertTo(di, row), hn::Zero(di)), hn::Set(di, grid.rows - 1));
+}
+
 /// The cells of directions. Lanes out of the band of elevations are not `in_band` and get the nearest row's cell; lanes
 /// that are no numbers get some valid cell. The grid must have a row.
 struct CellLookup {
@@ -75,12 +105,10 @@ inline CellLookup cells_of(const DirectionGridView& grid, Floats azimuth, Floats
   const FloatMask in_band = hn::And(hn::Ge(row, hn::Zero(d)), hn::Lt(row, rows));
   const Floats bounded =
       hn::Min(hn::Max(hn::IfThenElseZero(hn::Eq(row, row), row), hn::Zero(d)), hn::Sub(rows, constant(1.0f)));
-  const Ints row_index = hn::ConvertTo(di, bounded);
-  const Floats columns = hn::GatherIndex(d, grid.columns, row_index);
+  const auto [columns, first] = RowEntries(grid, bounded_rows(grid, bounded));
   const Floats turn = hn::MulAdd(azimuth, constant(0.5f * std::numbers::inv_pi_v<float>), constant(0.5f));
   const Floats column = hn::Mul(hn::IfThenElseZero(hn::Ge(turn, hn::Zero(d)), turn), columns);
   const Ints column_index = hn::ConvertTo(di, hn::Min(column, hn::Sub(columns, constant(1.0f))));
-  const Ints first = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(grid.first), row_index);
   return {hn::Add(first, column_index), in_band};
 }
 

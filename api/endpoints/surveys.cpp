@@ -1,5 +1,6 @@
 #include "storage/surveys.hpp"
 
+#include <optional>
 #include <variant>
 
 #include "api/call.hpp"
@@ -11,6 +12,7 @@
 #include "api/parse_survey.hpp"
 #include "api/render.hpp"
 #include "api/render_survey.hpp"
+#include "storage/epochs.hpp"
 #include "storage/events.hpp"
 
 namespace raywatch::endpoints {
@@ -54,8 +56,8 @@ EpochRecord usable_epoch(const Snapshot& snapshot, const GivenEpoch& given, Site
   if (const auto* window = std::get_if<GivenWindow>(&given)) {
     return epoch_of_window(snapshot, site, *window, member + ".");
   }
-  const EpochRecord epoch = epoch_with(snapshot, std::get<EpochId>(given));
-  if (epoch.site == site && epoch.state != EpochState::refused) return epoch;
+  const std::optional<EpochRecord> epoch = find_epoch(snapshot, std::get<EpochId>(given));
+  if (epoch && epoch->site == site && epoch->state != EpochState::refused) return *epoch;
   throw InvalidInput("The epochs cannot be compared.", {{member, "must be an epoch of the site that was not refused"}});
 }
 

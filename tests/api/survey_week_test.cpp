@@ -209,6 +209,10 @@ TEST_CASE("epochs are made by hand, accepted, compared by hand, and deleted") {
   json swapped = ids;
   std::swap(swapped["before"], swapped["after"]);
   CHECK_NE(pit.post("/api/v1/surveys", swapped).complaint_about("before"), "");
+  json unknown = ids;
+  unknown["after"] = 999999;
+  CHECK_EQ(pit.post("/api/v1/surveys", unknown).complaint_about("after"),
+           "must be an epoch of the site that was not refused");
   CHECK_EQ(pit.remove(place).status, 204);
   CHECK_EQ(pit.get(place).status, 404);
 }

@@ -77,12 +77,13 @@ TEST_CASE("any grid leads there and back, keeps angles and heights, and stretche
 
 TEST_CASE("a mine grid that is none is refused with the member that is wrong") {
   try {
-    check_grid({.rotation_rad = std::nan(""), .scale = 1000.0});
+    check_grid({.grid_origin_m = {0.0, 1e99, 0.0}, .rotation_rad = std::nan(""), .scale = 1000.0});
     FAIL("should have been refused");
   } catch (const InvalidInput& error) {
-    REQUIRE(error.fields().size() == 2);
-    CHECK(error.fields()[0].field == "rotation_deg");
-    CHECK(error.fields()[1].field == "scale");
+    REQUIRE(error.fields().size() == 3);
+    CHECK(error.fields()[0].field == "grid_origin_m");
+    CHECK(error.fields()[1].field == "rotation_deg");
+    CHECK(error.fields()[2].field == "scale");
   }
   CHECK_NOTHROW(check_grid({}));
 }
