@@ -4,19 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 
 #include "core/direction_grid.hpp"
 
 namespace raywatch {
-
-/// The columns of one row of a grid that a cone touches, and those among them that lie inside of it. Both are closed
-/// intervals that may reach below 0 or beyond the last column, where the row wraps around; they are never longer than
-/// the row. `inner_first > inner_last` when no column is inside.
-struct ConeRow {
-  std::uint32_t row = 0;
-  std::int64_t first = 0, last = -1;
-  std::int64_t inner_first = 0, inner_last = -1;
-};
 
 /// The cells of a grid that a cone of directions touches. Conservative in both senses: no cell that holds a return of
 /// the cone is left out, and a cell that is called inside holds no return out of it.
@@ -35,33 +27,35 @@ class Cone {
     return std::hypot(1.0, rows) * grid.cell_rad() <= inner_rad_;
   }
 
-  /// Calls `visit(ConeRow)` for the rows that the cone around `axis` touches, from the lowest, until it returns false.
-  template <class Visit>
-  void for_each_row(const DirectionGrid& grid, const Direction& axis, Visit&& visit) const {
-    const double elevation = axis.elevation_rad;
-    const double low = grid.row_coordinate(elevation - outer_rad_);
-    const double high = grid.row_coordinate(elevation + outer_rad_);
-    if (grid.rows() == 0 || high < 0.0 || low >= static_cast<double>(grid.rows())) return;
-    const auto first = static_cast<std::uint32_t>(std::max(low, 0.0));
-    const auto last = static_cast<std::uint32_t>(std::min(high, static_cast<double>(grid.rows() - 1)));
-    const double cosine = std::max(0.0, std::cos(elevation));
-    for (std::uint32_t row = first; row <= last; ++row) {
-      const Widths half = widths(grid, elevation, cosine, row);
-      if (half.outer_rad >= 0.0 && !visit(columns_of(grid, axis.azimuth_rad, row, half))) return;
-    }
-  }
-
-  /// Calls `visit(cell, inside)` for the cells that the cone around `axis` touches, until it returns false.
+  /// Calls `visit(cell, inside)` for the cells that the cone around `axis` touches, row by row from the lowest, until
+  /// it returns false.
   template <class Visit>
   void for_each_cell(const DirectionGrid& grid, const Direction& axis, Visit&& visit) const {
-    for_each_row(grid, axis, [&](const ConeRow& cover) {
-      const auto columns = static_cast<std::int64_t>(grid.columns(cover.row));
-      for (std::int64_t column = cover.first; column <= cover.last; ++column) {
-        const bool inside = cover.inner_first <= column && column <= cover.inner_last;
+    for_each_row(grid, axis, [&](std::uint32_t row, const Columns& outer, double cosine) {
+      const auto columns = static_cast<std::int64_t>(grid.columns(row));
+      const Columns inner = inner_columns(grid, axis, row, cosine, outer);
+      for (std::int64_t column = outer.first; column <= outer.last; ++column) {
+        const bool inside = inner.first <= column && column <= inner.last;
         const std::int64_t wrapped = column < 0 ? column + columns : column >= columns ? column - columns : column;
-        if (!visit(grid.first_cell(cover.row) + static_cast<std::uint32_t>(wrapped), inside)) return false;
+        if (!visit(grid.first_cell(row) + static_cast<std::uint32_t>(wrapped), inside)) return false;
       }
       return true;
+    });
+  }
+
+  /// Calls `visit(first, end)` for the stretches of neighbouring cells first..end - 1 that the cone around `axis`
+  /// touches, in the same order: one a row or, at the seam, two. Until it returns false.
+  template <class Visit>
+  void for_each_stretch(const DirectionGrid& grid, const Direction& axis, Visit&& visit) const {
+    for_each_row(grid, axis, [&](std::uint32_t row, const Columns& outer, double) {
+      const auto columns = static_cast<std::int64_t>(grid.columns(row));
+      const auto stretch = [&](std::int64_t first, std::int64_t end) {
+        const std::uint32_t cell = grid.first_cell(row);
+        return first >= end || visit(cell + static_cast<std::uint32_t>(first), cell + static_cast<std::uint32_t>(end));
+      };
+      const std::int64_t first = outer.first, end = outer.last + 1;
+      return stretch(first + columns, std::min(columns, end + columns)) &&
+             stretch(std::max<std::int64_t>(first, 0), std::min(columns, end)) && stretch(0, end - columns);
     });
   }
 
@@ -83,33 +77,6 @@ class Cone {
     return 2.0 * std::asin(sine);
   }
 
-  /// The half-widths in azimuth that contain, and that are contained in, the part of the cone in a row. From
-  /// hav(angle) = hav(elevation difference) + cos(elevation) cos(elevation') hav(azimuth difference).
-  struct Widths {
-    double outer_rad = std::numbers::pi;
-    double inner_rad = -1.0;
-  };
-  Widths widths(const DirectionGrid& grid, double elevation, double cosine, std::uint32_t row) const {
-    const double bottom = grid.row_bottom_rad(row), top = bottom + grid.cell_rad();
-    const double nearest = std::max({0.0, bottom - elevation, elevation - top});
-    const double farthest = std::max(std::abs(elevation - bottom), std::abs(elevation - top));
-    Widths result;
-    const double outer = outer_haversine_ - haversine(nearest);
-    const double outer_scale = cosine * grid.least_cosine(row);
-    if (outer < 0.0) {
-      result.outer_rad = -1.0;
-    } else if (outer < outer_scale) {
-      result.outer_rad = angle_of_haversine(outer / outer_scale) + kMargin_rad;
-    }
-    const double inner = inner_haversine_ - haversine(farthest);
-    const double inner_scale = cosine * grid.greatest_cosine(row);
-    if (inner >= 0.0) {
-      result.inner_rad =
-          inner < inner_scale ? angle_of_haversine(inner / inner_scale) - kMargin_rad : 2.0 * std::numbers::pi;
-    }
-    return result;
-  }
-
   /// floor(value) as a whole number, without the call that it is where the compiler must do without SSE 4.1.
   static std::int64_t floor_of(double value) {
     const auto whole = static_cast<std::int64_t>(value);
@@ -117,26 +84,59 @@ class Cone {
   }
   static std::int64_t ceil_of(double value) { return -floor_of(-value); }
 
-  static ConeRow columns_of(const DirectionGrid& grid, double azimuth_rad, std::uint32_t row, const Widths& half) {
+  /// Columns first..last of a row. They may reach below 0 or beyond the last column, where the row wraps around, but
+  /// are never more than the row has.
+  struct Columns {
+    std::int64_t first = 0, last = -1;
+  };
+
+  /// Calls `visit(row, columns that the cone touches, cosine of the axis' elevation)` until it returns false.
+  template <class Visit>
+  void for_each_row(const DirectionGrid& grid, const Direction& axis, Visit&& visit) const {
+    const double elevation = axis.elevation_rad;
+    const double low = grid.row_coordinate(elevation - outer_rad_);
+    const double high = grid.row_coordinate(elevation + outer_rad_);
+    if (grid.rows() == 0 || high < 0.0 || low >= static_cast<double>(grid.rows())) return;
+    const auto first = static_cast<std::uint32_t>(std::max(low, 0.0));
+    const auto last = static_cast<std::uint32_t>(std::min(high, static_cast<double>(grid.rows() - 1)));
+    const double cosine = std::max(0.0, std::cos(elevation));
+    for (std::uint32_t row = first; row <= last; ++row) {
+      const std::optional<Columns> outer = outer_columns(grid, axis, row, cosine);
+      if (outer && !visit(row, *outer, cosine)) return;
+    }
+  }
+
+  // How far a cone reaches in azimuth within a row follows from
+  // hav(angle) = hav(elevation difference) + cos(elevation) cos(elevation') hav(azimuth difference).
+
+  /// Those that contain the part of the cone in a row, if it touches that.
+  std::optional<Columns> outer_columns(const DirectionGrid& grid, const Direction& axis, std::uint32_t row,
+                                       double cosine) const {
+    const double bottom = grid.row_bottom_rad(row), top = bottom + grid.cell_rad();
+    const double nearest = std::max({0.0, bottom - axis.elevation_rad, axis.elevation_rad - top});
+    const double rest = outer_haversine_ - haversine(nearest), scale = cosine * grid.least_cosine(row);
+    if (rest < 0.0) return std::nullopt;
     const auto columns = static_cast<std::int64_t>(grid.columns(row));
-    const double per_rad = static_cast<double>(columns) / (2.0 * std::numbers::pi);
-    const double center = grid.column_coordinate(row, azimuth_rad);
-    ConeRow cover{.row = row,
-                  .first = floor_of(center - half.outer_rad * per_rad),
-                  .last = floor_of(center + half.outer_rad * per_rad)};
-    if (cover.last - cover.first >= columns) {
-      cover.first = 0;
-      cover.last = columns - 1;
-    }
-    if (half.inner_rad >= std::numbers::pi) {
-      cover.inner_first = cover.first;
-      cover.inner_last = cover.last;
-    } else if (half.inner_rad > 0.0) {
-      const double reach = half.inner_rad * per_rad;
-      cover.inner_first = std::max(cover.first, ceil_of(center - reach));
-      cover.inner_last = std::min(cover.last, floor_of(center + reach) - 1);
-    }
-    return cover;
+    const double half_rad = rest < scale ? angle_of_haversine(rest / scale) + kMargin_rad : std::numbers::pi;
+    const double half = half_rad * static_cast<double>(columns) / (2.0 * std::numbers::pi);
+    const double center = grid.column_coordinate(row, axis.azimuth_rad);
+    const Columns touched{floor_of(center - half), floor_of(center + half)};
+    return touched.last - touched.first >= columns ? Columns{0, columns - 1} : touched;
+  }
+
+  /// Those that the cone contains, of the columns `outer` that it touches.
+  Columns inner_columns(const DirectionGrid& grid, const Direction& axis, std::uint32_t row, double cosine,
+                        const Columns& outer) const {
+    const double bottom = grid.row_bottom_rad(row), top = bottom + grid.cell_rad();
+    const double farthest = std::max(std::abs(axis.elevation_rad - bottom), std::abs(axis.elevation_rad - top));
+    const double rest = inner_haversine_ - haversine(farthest), scale = cosine * grid.greatest_cosine(row);
+    if (rest < 0.0) return {};
+    if (rest >= scale) return outer;
+    const double half_rad = angle_of_haversine(rest / scale) - kMargin_rad;
+    if (half_rad <= 0.0) return {};
+    const double half = half_rad * static_cast<double>(grid.columns(row)) / (2.0 * std::numbers::pi);
+    const double center = grid.column_coordinate(row, axis.azimuth_rad);
+    return {std::max(outer.first, ceil_of(center - half)), std::min(outer.last, floor_of(center + half) - 1)};
   }
 
   double outer_rad_, inner_rad_;

@@ -71,22 +71,13 @@ class ConeReturns {
 
   /// The same for one point whose cone is large, or touches a pole or the seam.
   HWY_NOINLINE void find_one(const Direction& axis, std::size_t lane) {
+    const auto& index = prior_.index;
     std::size_t stretch = 0;
-    const auto add = [&](std::uint32_t first_cell, std::int64_t first, std::int64_t end) {
-      if (first >= end) return;
+    prior_.cone.for_each_stretch(index.grid, axis, [&](std::uint32_t first_cell, std::uint32_t end_cell) {
       grow(stretch + 1);
-      const auto& index = prior_.index;
-      begin_[stretch * kMostLanes + lane] = static_cast<std::int32_t>(index.first[first_cell + first]);
-      end_[stretch * kMostLanes + lane] = static_cast<std::int32_t>(index.first[first_cell + end]);
+      begin_[stretch * kMostLanes + lane] = static_cast<std::int32_t>(index.first[first_cell]);
+      end_[stretch * kMostLanes + lane] = static_cast<std::int32_t>(index.first[end_cell]);
       ++stretch;
-    };
-    const DirectionGrid& grid = prior_.index.grid;
-    prior_.cone.for_each_row(grid, axis, [&](const ConeRow& cover) {
-      const auto columns = static_cast<std::int64_t>(grid.columns(cover.row));
-      const std::uint32_t first_cell = grid.first_cell(cover.row);
-      add(first_cell, cover.first + columns, std::min(columns, cover.last + 1 + columns));
-      add(first_cell, std::max<std::int64_t>(cover.first, 0), std::min(columns, cover.last + 1));
-      add(first_cell, 0, cover.last + 1 - columns);
       return true;
     });
   }

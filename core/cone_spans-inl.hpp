@@ -16,11 +16,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace raywatch::HWY_NAMESPACE {
 
-/// The cells that the cones of one vector of points touch: `Cone::for_each_row` for vectors, with the same meaning of
-/// touched and inside, for cones that are small against the sphere and away from its poles and the seam.
+/// The cells that the cones of one vector of points touch: `Cone::for_each_cell` for vectors, with the same meaning of
+/// touched and inside, for cones that are small against the sphere and away from its poles. A row of the grid that
+/// some cone touches on both sides of the seam stands here as two rows.
 class ConeSpans {
  public:
-  static constexpr std::size_t kMostRows = 32;
+  static constexpr std::size_t kMostGridRows = 32, kMostRows = 2 * kMostGridRows;
   static constexpr std::int32_t kMostColumns = 31;
 
   explicit ConeSpans(const PreparedPrior& prior)
@@ -30,7 +31,7 @@ class ConeSpans {
         outer_haversine_(haversine_of(outer_rad_)),
         inner_haversine_(haversine_of(inner_rad_)),
         fits_(prior.thresholds.angle_rad < 0.1 && inner_rad_ > 0.0f &&
-              2.0f * outer_rad_ * grid_.rows_per_rad + 2.0f < static_cast<float>(kMostRows)) {}
+              2.0f * outer_rad_ * grid_.rows_per_rad + 2.0f < static_cast<float>(kMostGridRows)) {}
 
   /// Of one row and one point. `first` counts cells of the whole grid; bit k of `inside` stands for cell `first` + k.
   struct Span {
@@ -60,10 +61,11 @@ class ConeSpans {
     unfit_ = hn::FirstN(d, 0);
     rows_ = 0;
     most_columns_ = hn::Zero(IntTag());
-    for (Floats row = low; rows_ < kMostRows; row = hn::Add(row, constant(1.0f)), ++rows_) {
+    for (std::uint8_t step = 0; step < kMostGridRows; ++step) {
+      const Floats row = hn::Add(low, constant(step));
       const FloatMask active = hn::And(present, hn::Le(row, high));
       if (hn::AllFalse(d, active)) break;
-      find_in_row(row, active, turn, elevation, cosine);
+      find_in_row(row, step, active, turn, elevation, cosine);
     }
     pair_rows();
     hn::Store(hn::IfThenElseZero(unfit_, constant(1.0f)), d, is_unfit_);
@@ -98,10 +100,11 @@ class ConeSpans {
 
   /// @param row one that the cone of that lane touches: its span is not empty
   Sides sides(std::size_t row, std::size_t lane) const {
-    const std::size_t grid_row = static_cast<std::size_t>(low_[lane]) + row;
+    const std::size_t grid_row = static_cast<std::size_t>(low_[lane]) + steps_[row];
     const float columns = grid_.columns[grid_row], rounding = 1e-6f * columns + 0.01f;
-    const float center = turn_[lane] * columns;
     const std::int32_t first = first_[row][lane] - static_cast<std::int32_t>(grid_.first[grid_row]);
+    float center = turn_[lane] * columns;
+    if (is_beyond_seam_[row]) center += static_cast<float>(first) > center ? columns : -columns;
     const float bottom_rad = grid_.low_rad + static_cast<float>(grid_row) * grid_.cell_rad;
     // North and south turn over not exactly at the elevation of the point but, off its meridian, a little beside it.
     const float tangent = std::abs(elevation_rad_[lane]) / std::max(cosine_[lane], 1e-6f);
@@ -156,14 +159,14 @@ class ConeSpans {
     }
   }
 
-  /// As `Cone::widths` and `Cone::columns_of`, but with bounds of the cosines in the row that follow from its number of
-  /// columns c: c - 1 < 2 pi / cell * greatest <= c, and the least is smaller by at most a cell.
-  void find_in_row(Floats row, FloatMask active, Floats turn, Floats elevation, Floats cosine) {
+  /// As `outer_columns` and `inner_columns` of `Cone`, but with bounds of the cosines in the row that follow from its
+  /// number of columns c: c - 1 < 2 pi / cell * greatest <= c, and the least is smaller by at most a cell.
+  void find_in_row(Floats row, std::uint8_t step, FloatMask active, Floats turn, Floats elevation, Floats cosine) {
     constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;
     const FloatTag d;
-    const IntTag di;
     const Floats zero = hn::Zero(d), one = constant(1.0f);
-    const auto [columns, base] = RowEntries(grid_, bounded_rows(grid_, row));
+    const Floats highest = constant(static_cast<float>(grid_.rows - 1));  // rows that no lane is active in may be none
+    const auto [columns, base] = RowEntries(grid_, hn::ConvertTo(IntTag(), hn::Min(row, highest)));
     const Floats bottom = hn::MulAdd(row, constant(grid_.cell_rad), constant(grid_.low_rad));
     const Floats above = hn::Sub(bottom, elevation);
     const Floats below = hn::Sub(elevation, hn::Add(bottom, constant(grid_.cell_rad)));
@@ -180,28 +183,61 @@ class ConeSpans {
     const Floats outer_columns = hn::Mul(hn::MulAdd(outer_angle.rad, constant(1.0f + kRootError), margin), per_rad);
     const Floats inner_columns = hn::Mul(hn::MulSub(inner_angle.rad, constant(1.0f - kRootError), margin), per_rad);
     const Floats center = hn::Mul(turn, columns);
-    const Floats first = hn::Floor(hn::Sub(center, outer_columns)), last = hn::Floor(hn::Add(center, outer_columns));
+    const Floats first = hn::Floor(hn::Sub(center, outer_columns));
+    const Floats end = hn::Add(hn::Floor(hn::Add(center, outer_columns)), one);
     const FloatMask touches = hn::And(active, hn::Ge(outer, zero));
-    const FloatMask wraps = hn::Or(hn::Lt(first, zero), hn::Ge(last, columns));
-    const FloatMask is_wide = hn::Or(hn::Gt(outer_angle.haversine, constant(0.99f * kMostHaversine)),
-                                     hn::Ge(hn::Sub(last, first), constant(static_cast<float>(kMostColumns))));
-    unfit_ = hn::Or(unfit_, hn::And(touches, hn::Or(wraps, is_wide)));
+    const FloatMask wraps = hn::And(touches, hn::Or(hn::Lt(first, zero), hn::Gt(end, columns)));
+    const Floats most = hn::Min(constant(static_cast<float>(kMostColumns)), columns);
+    const FloatMask is_wide =
+        hn::Or(hn::Gt(outer_angle.haversine, constant(0.99f * kMostHaversine)), hn::Gt(hn::Sub(end, first), most));
+    unfit_ = hn::Or(unfit_, hn::And(touches, is_wide));
     const FloatMask usable = hn::AndNot(unfit_, touches);
+    const FloatMask has_inside = hn::And(hn::Gt(inner, zero), usable);
+    const Floats inner_first = hn::Max(first, hn::Ceil(hn::Sub(center, inner_columns)));
+    const Floats inner_end = hn::Min(end, hn::Floor(hn::Add(center, inner_columns)));
+    const Reach reach{first, end, inner_first, inner_end, usable, has_inside};
+    add_row(reach.part(zero, columns), base, step, false);
+    if (hn::AllFalse(d, hn::And(wraps, usable))) return;
+    const Floats turned = hn::IfThenElse(hn::Lt(first, zero), columns, hn::Neg(columns));
+    const Reach beyond{hn::Add(first, turned),     hn::Add(end, turned),   hn::Add(inner_first, turned),
+                       hn::Add(inner_end, turned), hn::And(usable, wraps), hn::And(has_inside, wraps)};
+    add_row(beyond.part(zero, columns), base, step, true);
+  }
+
+  /// Columns first..end - 1 of one row that cones touch, and those inside of them, where the masks say so.
+  struct Reach {
+    Floats first, end, inner_first, inner_end;
+    FloatMask present, has_inside;
+
+    /// What lies in columns `from`..`to` - 1.
+    Reach part(Floats from, Floats to) const {
+      Reach result{hn::Max(first, from),   hn::Min(end, to), hn::Max(inner_first, from),
+                   hn::Min(inner_end, to), present,          has_inside};
+      result.present = hn::And(present, hn::Lt(result.first, result.end));
+      result.has_inside = hn::And(hn::And(has_inside, result.present), hn::Lt(result.inner_first, result.inner_end));
+      return result;
+    }
+  };
+
+  /// @param base first cell of the row. @param step its place above the lowest row of each cone
+  void add_row(const Reach& reach, Ints base, std::uint8_t step, bool is_beyond_seam) {
+    const IntTag di;
     // Whole numbers below 2^23 stand in the mantissa of their sum with it.
     const Floats two23 = constant(8388608.0f);
     const auto as_int = [&](Floats value) HWY_ATTR {
-      return hn::Sub(hn::BitCast(di, hn::Add(hn::IfThenElseZero(usable, value), two23)), hn::BitCast(di, two23));
+      return hn::Sub(hn::BitCast(di, hn::Add(hn::IfThenElseZero(reach.present, value), two23)), hn::BitCast(di, two23));
     };
-    const Floats inner_first = hn::Sub(hn::Max(first, hn::Ceil(hn::Sub(center, inner_columns))), first);
-    const Floats inner_end = hn::Sub(hn::Min(hn::Add(last, one), hn::Floor(hn::Add(center, inner_columns))), first);
     const Ints ones = hn::Set(di, 1);
-    const Ints inside = hn::Sub(hn::Shl(ones, as_int(inner_end)), hn::Shl(ones, as_int(inner_first)));
-    const FloatMask has_inside = hn::And(hn::And(hn::Gt(inner, zero), usable), hn::Gt(inner_end, inner_first));
-    hn::Store(hn::Add(base, as_int(first)), di, first_[rows_]);
-    const Ints count = as_int(hn::Add(hn::Sub(last, first), one));
+    const Ints inside = hn::Sub(hn::Shl(ones, as_int(hn::Sub(reach.inner_end, reach.first))),
+                                hn::Shl(ones, as_int(hn::Sub(reach.inner_first, reach.first))));
+    const Ints count = as_int(hn::Sub(reach.end, reach.first));
     most_columns_ = hn::Max(most_columns_, count);
+    hn::Store(hn::Add(base, as_int(reach.first)), di, first_[rows_]);
     hn::Store(count, di, count_[rows_]);
-    hn::Store(hn::IfThenElseZero(hn::RebindMask(di, has_inside), inside), di, inside_[rows_]);
+    hn::Store(hn::IfThenElseZero(hn::RebindMask(di, reach.has_inside), inside), di, inside_[rows_]);
+    steps_[rows_] = step;
+    is_beyond_seam_[rows_] = is_beyond_seam;
+    ++rows_;
   }
 
   DirectionGridView grid_;
@@ -214,6 +250,8 @@ class ConeSpans {
   HWY_ALIGN float low_[kMostLanes], turn_[kMostLanes], elevation_rad_[kMostLanes], cosine_[kMostLanes];
   HWY_ALIGN std::int32_t first_[kMostRows + 1][kMostLanes], count_[kMostRows + 1][kMostLanes];
   HWY_ALIGN std::int32_t inside_[kMostRows + 1][kMostLanes];  // bits
+  std::uint8_t steps_[kMostRows];                             ///< of each row above the lowest of its cone
+  bool is_beyond_seam_[kMostRows];
   bool are_paired_ = false;
   Ints most_columns_ = hn::Zero(IntTag());
   HWY_ALIGN std::int32_t paired_present_[kMostRows / 2][kMostLanes], paired_inside_[kMostRows / 2][kMostLanes];

@@ -89,145 +89,179 @@ class ConeWindow {
     remains.is_complete = spans_.fits(lane_);
     if (!remains.is_complete) return std::nullopt;
     Bounds all;
-    if (spans_.are_paired()) {
-      look_at_rows((spans_.rows() + 1) / 2, all,
-                   [this](std::size_t pair, Bounds& sum) HWY_ATTR { look_at_pair(pair, sum); });
-    } else {
-      look_at_rows(spans_.rows(), all, [this](std::size_t row, Bounds& sum) HWY_ATTR { look_at_row(row, sum); });
-    }
-    if (is_supported(all)) return Answer::supported;
+    look_at_all(all);
+    if (all.support(band_)) return Answer::supported;
     const bool is_nearer = has(hn::Le(all.inside_least, band_.near));
     const bool is_farther = has(hn::Ge(all.inside_greatest, band_.far));
     const bool any = is_nearer || is_farther || has(hn::Le(all.inside_least, all.inside_greatest));
     remains.evidence = {.any = any, .not_farther = is_nearer, .not_nearer = is_farther};
     const bool borders_matter = (!is_nearer && has(hn::Le(all.least, band_.near))) ||
-                                (!is_farther && has(hn::Ge(all.greatest, band_.far))) || has(all.open);
+                                (!is_farther && has(hn::Ge(all.greatest, band_.far))) || all.may_lie_in_band();
     if (!borders_matter) {
       if (!any) return Answer::unseen;
       if (is_nearer) return is_farther ? Answer::ambiguous : Answer::occluded;
     }
     list_cells(!is_nearer, !is_farther, remains);
-    if (is_nearer && remains.count == 0) return is_farther ? Answer::ambiguous : Answer::occluded;
+    if (is_nearer) {
+      if (remains.count > 0) return std::nullopt;
+      return is_farther ? Answer::ambiguous : Answer::occluded;
+    }
+    remains.is_surrounded = is_surrounded();
     if (!borders_matter && remains.is_surrounded) return Answer::free;
     return std::nullopt;
   }
 
  private:
+  static constexpr std::int32_t kHalf = static_cast<std::int32_t>(kMostLanes / 2);
+
   static bool has(FloatMask mask) { return !hn::AllFalse(FloatTag(), mask); }
 
-  /// Of all cells together: bounds of ranges, also of the cells inside alone, the least distance of those from the
-  /// point's range, and whether returns of a cell may lie in the band.
+  /// One vector of cells, of one row or of two paired rows: their bounds, infinite where there is no cell or no return.
+  struct Cells {
+    std::int32_t first, next_first;  ///< the cells of the first lane, and of the first one of the other half
+    std::uint32_t inside;            ///< bits
+    Floats least, greatest;
+
+    void keep(FloatMask present) {
+      const Floats infinity = constant(std::numeric_limits<float>::infinity());
+      least = hn::IfThenElse(present, least, infinity);
+      greatest = hn::IfThenElse(present, greatest, hn::Neg(infinity));
+    }
+    std::uint32_t cell(int lane) const {
+      return static_cast<std::uint32_t>(lane < kHalf ? first + lane : next_first + lane - kHalf);
+    }
+    std::uint32_t occupied() const { return bits_of(hn::Le(least, greatest)); }
+  };
+
+  /// Of all cells together. No branch depends on a single row, as it could not be predicted.
   struct Bounds {
     Bounds() {
       least = inside_least = off = constant(std::numeric_limits<float>::infinity());
       greatest = inside_greatest = hn::Neg(least);
       open = hn::FirstN(FloatTag(), 0);
     }
-    Floats least, greatest, inside_least, inside_greatest, off;
-    FloatMask open;
-  };
 
-  bool is_supported(const Bounds& all) const { return has(hn::Lt(all.off, band_.within)); }
+    HWY_INLINE void add(const Cells& cells, const RangeBand& band) {
+      const FloatMask inside = mask_of(cells.inside);
+      const Floats off_rho =
+          hn::Min(hn::Abs(hn::Sub(cells.least, band.rho)), hn::Abs(hn::Sub(cells.greatest, band.rho)));
+      off = hn::IfThenElse(inside, hn::Min(off, off_rho), off);
+      inside_least = hn::IfThenElse(inside, hn::Min(inside_least, cells.least), inside_least);
+      inside_greatest = hn::IfThenElse(inside, hn::Max(inside_greatest, cells.greatest), inside_greatest);
+      least = hn::Min(least, cells.least);
+      greatest = hn::Max(greatest, cells.greatest);
+      open = hn::Or(open, hn::And(hn::Lt(cells.least, band.far), hn::Gt(cells.greatest, band.near)));
+    }
+    bool support(const RangeBand& band) const { return has(hn::Lt(off, band.within)); }
+    bool may_lie_in_band() const { return has(open); }
 
-  /// The bounds of one vector of cells; infinite where there is no cell or no return.
-  struct Cells {
-    Cells(Floats any_least, Floats any_greatest, FloatMask present, FloatMask in, const RangeBand& band)
-        : least(hn::IfThenElse(present, any_least, constant(std::numeric_limits<float>::infinity()))),
-          greatest(hn::IfThenElse(present, any_greatest, constant(-std::numeric_limits<float>::infinity()))),
-          inside(in),
-          open(hn::And(hn::Lt(least, band.far), hn::Gt(greatest, band.near))) {}
-    Floats least, greatest;
-    FloatMask inside;
+    Floats least, greatest, inside_least, inside_greatest;
+    Floats off;      ///< the least distance of a bound inside from the point's range
     FloatMask open;  ///< whose returns may lie in the band
   };
 
-  /// The middle rows first, where most support is. No branch depends on a single row: it could not be predicted.
+  /// Looks at the middle rows first, where most support is.
+  HWY_INLINE void look_at_all(Bounds& all) const {
+    if (spans_.are_paired()) {
+      look_at_lines((spans_.rows() + 1) / 2, all,
+                    [&](std::size_t pair) HWY_ATTR { all.add(pair_of_rows(pair), band_); });
+    } else {
+      look_at_lines(spans_.rows(), all, [&](std::size_t row) HWY_ATTR {
+        for_each_vector_of(row, [&](const Cells& cells) HWY_ATTR { all.add(cells, band_); });
+      });
+    }
+  }
+
   template <class Look>
-  HWY_INLINE void look_at_rows(std::size_t rows, Bounds& all, Look look) const {
-    const std::size_t begin = rows / 3, end = rows - rows / 3;
-    for (std::size_t row = begin; row < end; ++row) look(row, all);
-    if (is_supported(all)) return;
-    for (std::size_t row = 0; row < begin; ++row) look(row, all);
-    for (std::size_t row = end; row < rows; ++row) look(row, all);
+  HWY_INLINE void look_at_lines(std::size_t lines, const Bounds& all, Look look) const {
+    const std::size_t begin = lines / 3, end = lines - lines / 3;
+    for (std::size_t line = begin; line < end; ++line) look(line);
+    if (all.support(band_)) return;
+    for (std::size_t line = 0; line < begin; ++line) look(line);
+    for (std::size_t line = end; line < lines; ++line) look(line);
   }
 
-  HWY_INLINE void look_at_pair(std::size_t pair, Bounds& all) const {
-#if HWY_TARGET != HWY_SCALAR
-    const FloatTag d;
-    const hn::Half<FloatTag> dh;
-    const ConeSpans::PairedSpan span = spans_.paired_span(pair, lane_);
-    const float *least = index_.least_m.data(), *greatest = index_.greatest_m.data();
-    add(Cells(hn::Combine(d, hn::LoadU(dh, least + span.next_first), hn::LoadU(dh, least + span.first)),
-              hn::Combine(d, hn::LoadU(dh, greatest + span.next_first), hn::LoadU(dh, greatest + span.first)),
-              mask_of(span.present), mask_of(span.inside), band_),
-        all);
-#else
-    HWY_ASSERT(false && pair && &all);
-#endif
+  /// Rows, or pairs of rows where rows are paired.
+  std::size_t lines() const { return spans_.are_paired() ? (spans_.rows() + 1) / 2 : spans_.rows(); }
+
+  /// Calls `visit(Cells)` for the vectors of cells in some lines.
+  template <class Visit>
+  HWY_INLINE void for_each_vector(std::size_t begin, std::size_t end, Visit visit) const {
+    if (spans_.are_paired()) {
+      for (std::size_t pair = begin; pair < end; ++pair) visit(pair_of_rows(pair));
+    } else {
+      for (std::size_t row = begin; row < end; ++row) for_each_vector_of(row, visit);
+    }
   }
 
-  HWY_INLINE void look_at_row(std::size_t row, Bounds& all) const {
-    for_each_vector_of(row, [&](const Cells& cells, std::int32_t) HWY_ATTR { add(cells, all); });
-  }
-
-  /// Calls `visit(cells, k)` for the vectors of cells of a row; the first cell of each is the k-th of the row.
+  /// The same for one row.
   template <class Visit>
   HWY_INLINE void for_each_vector_of(std::size_t row, Visit visit) const {
     const FloatTag d;
     const ConeSpans::Span span = spans_.span(row, lane_);
-    const float *least = index_.least_m.data() + span.first, *greatest = index_.greatest_m.data() + span.first;
     for (std::int32_t k = 0; k < span.count; k += static_cast<std::int32_t>(hn::Lanes(d))) {
-      visit(Cells(hn::LoadU(d, least + k), hn::LoadU(d, greatest + k),
-                  hn::FirstN(d, static_cast<std::size_t>(span.count - k)), mask_of(span.inside >> k), band_),
-            k);
+      const std::int32_t first = span.first + k;
+      Cells cells{first, first + kHalf, span.inside >> k, hn::LoadU(d, index_.least_m.data() + first),
+                  hn::LoadU(d, index_.greatest_m.data() + first)};
+      cells.keep(hn::FirstN(d, static_cast<std::size_t>(span.count - k)));
+      visit(cells);
     }
   }
 
-  HWY_INLINE void add(const Cells& cells, Bounds& all) const {
-    const Floats off = hn::Min(hn::Abs(hn::Sub(cells.least, band_.rho)), hn::Abs(hn::Sub(cells.greatest, band_.rho)));
-    all.off = hn::IfThenElse(cells.inside, hn::Min(all.off, off), all.off);
-    all.inside_least = hn::IfThenElse(cells.inside, hn::Min(all.inside_least, cells.least), all.inside_least);
-    all.inside_greatest =
-        hn::IfThenElse(cells.inside, hn::Max(all.inside_greatest, cells.greatest), all.inside_greatest);
-    all.least = hn::Min(all.least, cells.least);
-    all.greatest = hn::Max(all.greatest, cells.greatest);
-    all.open = hn::Or(all.open, cells.open);
+  HWY_INLINE Cells pair_of_rows(std::size_t pair) const {
+    const FloatTag d;
+    const ConeSpans::PairedSpan span = spans_.paired_span(pair, lane_);
+#if HWY_TARGET != HWY_SCALAR
+    const hn::Half<FloatTag> dh;
+    const auto load = [&](const float* bounds) HWY_ATTR {
+      return hn::Combine(d, hn::LoadU(dh, bounds + span.next_first), hn::LoadU(dh, bounds + span.first));
+    };
+#else
+    const auto load = [&](const float* bounds) { return hn::LoadU(d, bounds + span.first); };
+#endif
+    Cells cells{span.first, span.next_first, span.inside, load(index_.least_m.data()), load(index_.greatest_m.data())};
+    cells.keep(mask_of(span.present));
+    return cells;
   }
 
-  /// Lists the cells whose returns can make a difference, and finds whether cells inside lie to every side of the axis.
+  /// Lists the cells whose returns can make a difference.
   HWY_NOINLINE void list_cells(bool with_nearer, bool with_farther, Remains& remains) const {
+    for_each_vector(0, lines(), [&](const Cells& cells) HWY_ATTR {
+      std::uint32_t listed = bits_of(hn::And(hn::Lt(cells.least, band_.far), hn::Gt(cells.greatest, band_.near)));
+      if (with_nearer) listed |= bits_of(hn::Le(cells.least, band_.near)) & ~cells.inside;
+      if (with_farther) listed |= bits_of(hn::Ge(cells.greatest, band_.far)) & ~cells.inside;
+      for (std::uint32_t bits = listed; bits != 0; bits &= bits - 1) {
+        const std::uint32_t cell = cells.cell(std::countr_zero(bits));
+        if (with_nearer || with_farther || !is_settled(cell)) remains.add(cell);
+      }
+    });
+  }
+
+  /// A cell of no more than two returns, neither of which lies in the band: the bounds are all that there is of them.
+  bool is_settled(std::uint32_t cell) const {
+    return index_.first[cell + 1] - index_.first[cell] <= 2 && index_.least_m[cell] <= hn::GetLane(band_.near) &&
+           index_.greatest_m[cell] >= hn::GetLane(band_.far);
+  }
+
+  /// Whether occupied cells inside lie to every side of the axis.
+  bool is_surrounded() const {
     bool west = false, east = false, south = false, north = false;
     for (std::size_t row = 0; row < spans_.rows(); ++row) {
+      // A row that only cones of other lanes touch may be none of the grid's.
       const ConeSpans::Span span = spans_.span(row, lane_);
-      if (span.count == 0) continue;  // a row that only cones of other lanes touch, and which the grid may not have
+      if (span.count == 0) continue;
       const ConeSpans::Sides sides = spans_.sides(row, lane_);
-      for_each_vector_of(row, [&](const Cells& cells, std::int32_t k) HWY_ATTR {
-        const FloatMask full = hn::Le(cells.least, cells.greatest), border = hn::AndNot(cells.inside, full);
-        FloatMask listed = cells.open;
-        if (!with_nearer && !with_farther) listed = hn::AndNot(are_settled(cells, span.first + k), listed);
-        if (with_nearer) listed = hn::Or(listed, hn::And(border, hn::Le(cells.greatest, band_.near)));
-        if (with_farther) listed = hn::Or(listed, hn::And(border, hn::Ge(cells.least, band_.far)));
-        for (std::uint32_t bits = bits_of(listed); bits != 0; bits &= bits - 1) {
-          remains.add(static_cast<std::uint32_t>(span.first + k + std::countr_zero(bits)));
-        }
-        const std::uint32_t inside = bits_of(hn::And(cells.inside, full));
+      for_each_vector_of(row, [&](const Cells& cells) HWY_ATTR {
+        const std::uint32_t inside = cells.inside & cells.occupied();
         if (inside == 0) return;
-        west |= k + std::countr_zero(inside) < sides.west_end;
-        east |= k + 31 - std::countl_zero(inside) >= sides.east_first;
+        const std::int32_t column = cells.first - span.first;
+        west |= column + std::countr_zero(inside) < sides.west_end;
+        east |= column + 31 - std::countl_zero(inside) >= sides.east_first;
         south |= sides.is_south;
         north |= sides.is_north;
       });
     }
-    remains.is_surrounded = west && east && south && north;
-  }
-
-  /// The cells of no more than two returns, none of which lies in the band: the bounds are all that there is of them.
-  HWY_INLINE FloatMask are_settled(const Cells& cells, std::int32_t first_cell) const {
-    const IntTag di;
-    const auto* first = reinterpret_cast<const std::int32_t*>(index_.first.data()) + first_cell;
-    const Ints returns = hn::Sub(hn::LoadU(di, first + 1), hn::LoadU(di, first));
-    const FloatMask few = hn::RebindMask(FloatTag(), hn::Lt(returns, hn::Set(di, 3)));
-    return hn::And(few, hn::And(hn::Le(cells.least, band_.near), hn::Ge(cells.greatest, band_.far)));
+    return west && east && south && north;
   }
 
   const PriorIndex::Impl& index_;

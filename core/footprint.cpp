@@ -1,45 +1,74 @@
 #include "core/footprint.hpp"
 
-#include <algorithm>
-#include <numbers>
-
 #include "core/assumed_sensor.hpp"
-#include "core/cone.hpp"
 #include "core/for_each_point.hpp"
-#include "core/prior_index_impl.hpp"
+#include "core/returns_near.hpp"
 
 namespace raywatch {
 namespace {
 
-/// Whether shots lie on each side of a point, and all ended at `least_range_m` or beyond. Looks at those in an ellipse
-/// of directions: the cone of T_a is as wide as the coarser of the two spacings demands.
-/// @param least_range_m 0: whatever their ranges, and no more of them than are needed
-bool are_around(const PriorIndex::Impl& index, const Eigen::Vector3d& point_m, const Eigen::Vector2d& radii_rad,
-                double least_range_m) {
-  const double range_m = point_m.norm();
-  const Eigen::Vector3d east = Eigen::Vector3d::UnitZ().cross(point_m).normalized();
-  const Eigen::Vector3d north = point_m.cross(east) / range_m;
-  bool on_west = false, on_east = false, on_south = false, on_north = false, behind = true;
-  const auto surround = [&] { return on_west && on_east && on_south && on_north; };
-  const auto look_at = [&](const Return& shot) {
-    const Eigen::Vector3d end_m = point_of(shot);
-    const double end_range_m = end_m.norm();
-    const Eigen::Vector2d offset_rad = Eigen::Vector2d(east.dot(end_m), north.dot(end_m)) / end_range_m;
-    if (end_m.dot(point_m) < 0.0 || offset_rad.cwiseQuotient(radii_rad).squaredNorm() > 1.0) return;
-    behind &= end_range_m >= least_range_m;
-    on_west |= offset_rad.x() <= 0.0;
-    on_east |= offset_rad.x() >= 0.0;
-    on_south |= offset_rad.y() < 0.0;
-    on_north |= offset_rad.y() > 0.0;
+/// The shots in an ellipse of directions around a point: the cone of T_a is as wide as the coarser of the two spacings
+/// demands.
+class ShotsAround {
+ public:
+  ShotsAround(const PriorIndex::Impl& index, const Eigen::Vector3d& point_m, const Eigen::Vector2d& radii_rad)
+      : index_(index),
+        point_m_(point_m),
+        radii_rad_(radii_rad),
+        east_(Eigen::Vector3d::UnitZ().cross(point_m).normalized()),
+        north_(point_m.cross(east_) / point_m.norm()) {}
+
+  /// Whether there are some on every side.
+  bool surround() const {
+    Sides sides;
+    for_each([&](const Eigen::Vector2d& offset_rad, double) {
+      sides.add(offset_rad);
+      return !sides.all();
+    });
+    return sides.all();
+  }
+
+  /// Whether there are some on every side, and all ended at `least_range_m` or beyond.
+  bool surround_beyond(double least_range_m) const {
+    Sides sides;
+    bool beyond = true;
+    for_each([&](const Eigen::Vector2d& offset_rad, double end_range_m) {
+      sides.add(offset_rad);
+      beyond = end_range_m >= least_range_m;
+      return beyond;
+    });
+    return beyond && sides.all();
+  }
+
+ private:
+  struct Sides {
+    bool west = false, east = false, south = false, north = false;
+    void add(const Eigen::Vector2d& offset_rad) {
+      west |= offset_rad.x() <= 0.0;
+      east |= offset_rad.x() >= 0.0;
+      south |= offset_rad.y() < 0.0;
+      north |= offset_rad.y() > 0.0;
+    }
+    bool all() const { return west && east && south && north; }
   };
-  const Direction axis = direction_of(point_m.x(), point_m.y(), point_m.z());
-  const Cone cone(std::min(radii_rad.maxCoeff(), std::numbers::pi / 2));
-  cone.for_each_cell(index.grid, axis, [&](std::uint32_t cell, bool) {
-    for (std::uint32_t i = index.first[cell]; i < index.first[cell + 1] && behind; ++i) look_at(index.returns[i]);
-    return behind && !(least_range_m == 0.0 && surround());
-  });
-  return behind && surround();
-}
+
+  /// Calls visit(offset from the point, range) until it returns false.
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for_each_return_near(index_, point_m_, radii_rad_.maxCoeff(), [&](std::uint32_t i) {
+      const Eigen::Vector3d end_m = point_of(index_.returns[i]);
+      const double end_range_m = end_m.norm();
+      const Eigen::Vector2d offset_rad = Eigen::Vector2d(east_.dot(end_m), north_.dot(end_m)) / end_range_m;
+      const bool is_around = end_m.dot(point_m_) >= 0.0 && !(offset_rad.cwiseQuotient(radii_rad_).squaredNorm() > 1.0);
+      return !is_around || visit(offset_rad, end_range_m);
+    });
+  }
+
+  const PriorIndex::Impl& index_;
+  Eigen::Vector3d point_m_;
+  Eigen::Vector2d radii_rad_;
+  Eigen::Vector3d east_, north_;
+};
 
 }  // namespace
 
@@ -50,7 +79,7 @@ void ask_footprints(const ScanView& asked, const PointCloud& points, const Pose&
   const Eigen::Vector2d radii_rad = kBeside * spacing_of(asked);
   for_each_point(points, asked_from_points, [&](std::size_t i, const Eigen::Vector3d& point_m) {
     if (answers[i] != Answer::ambiguous) return;
-    if (are_around(index, point_m, radii_rad, point_m.norm() + range_m)) answers[i] = Answer::free;
+    if (ShotsAround(index, point_m, radii_rad).surround_beyond(point_m.norm() + range_m)) answers[i] = Answer::free;
   });
 }
 
@@ -63,7 +92,7 @@ void withhold_at_borders(const ScanView& asked, const PointCloud& points, const 
   for_each_point(points, asked_from_points, [&](std::size_t i, const Eigen::Vector3d& point_m) {
     if (answers[i] != Answer::free) return;
     const Eigen::Vector2d moved_rad = radii_rad + Eigen::Vector2d::Constant(kNoise * noise_m / point_m.norm());
-    if (index.own.hide(point_m, moved_rad) || !are_around(index, point_m, radii_rad, 0.0)) {
+    if (index.own.hide(point_m, moved_rad) || !ShotsAround(index, point_m, radii_rad).surround()) {
       answers[i] = Answer::unseen;
     }
   });

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <tuple>
 
@@ -91,29 +90,19 @@ class Growth {
     return std::min(reach_m(view_, place_m, parameters_), static_cast<float>(dense_m));
   }
 
-  /// Whether a return of the cell may lie within reach of a point: that is no nearer than their ranges differ.
-  static bool may_reach(const PriorIndex::Impl& index, std::uint32_t cell, float range_m, float reach_m) {
-    const float most_m = reach_m + kRangeError * (2.0f * range_m + reach_m);
-    return index.least_m[cell] <= range_m + most_m && index.greatest_m[cell] >= range_m - most_m;
-  }
-
   std::vector<Neighbour> neighbours(const Joined& from) const {
     const PriorIndex::Impl& index = view_.index.impl();
     const Eigen::Vector3f place_m = view_.points[from.index], seed_m = view_.points[from.seed];
     const float reach = step_m(place_m);
-    const float range_m = place_m.norm();
-    const double ratio = reach / range_m;
     const float farthest_m = std::max(static_cast<float>(parameters_.growth_distance_m), reach);
     std::vector<Neighbour> result;
     const auto offer = [&](std::uint32_t i) {
-      const Eigen::Vector3f p = point_of(index.returns[i]).cast<float>();
-      if ((p - place_m).squaredNorm() >= reach * reach || (*visited_)[sources_[i]]) return;
-      const float distance_m = (p - seed_m).norm();
+      if ((*visited_)[sources_[i]]) return;
+      const float distance_m = (point_of(index.returns[i]).cast<float>() - seed_m).norm();
       if (distance_m <= farthest_m) result.push_back({{sources_[i], from.seed, from.point_class}, distance_m});
     };
-    for_each_return_near(
-        index, place_m.cast<double>(), ratio < 1.0 ? std::asin(ratio) : std::numbers::pi / 2, offer,
-        [&](std::uint32_t cell) { return may_reach(index, cell, range_m, reach) && visited_->some_left_in(cell); });
+    for_each_return_around(index, place_m.cast<double>(), reach, offer,
+                           [&](std::uint32_t cell) { return visited_->some_left_in(cell); });
     return result;
   }
 

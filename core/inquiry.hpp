@@ -63,15 +63,20 @@ class Inquiry {
 
   /// Skips the cell's returns when its bounds already say all that they could add, and adds that.
   bool adds_nothing(const Question& question, std::uint32_t cell, bool inside, Evidence& evidence) const {
-    const float least_m = prior_.index.least_m[cell], greatest_m = prior_.index.greatest_m[cell];
+    const double least_m = prior_.index.least_m[cell], greatest_m = prior_.index.greatest_m[cell];
     if (least_m > greatest_m) return true;
-    const double rounding_m = 2.0 * kRangeError * question.range_m();
-    if (greatest_m <= question.range_m() - thresholds_.range_m - rounding_m && (inside || evidence.not_farther)) {
+    const double range_m = question.range_m(), rounding_m = 2.0 * kRangeError * range_m;
+    const double within_m = thresholds_.range_m - rounding_m;
+    if (inside && (std::abs(least_m - range_m) < within_m || std::abs(greatest_m - range_m) < within_m)) {
+      evidence.any = evidence.supported = evidence.not_farther = evidence.not_nearer = true;
+      return true;
+    }
+    if (greatest_m <= range_m - thresholds_.range_m - rounding_m && (inside || evidence.not_farther)) {
       evidence.any |= inside;
       evidence.not_farther = true;
       return true;
     }
-    if (least_m >= question.range_m() + thresholds_.range_m + rounding_m && (inside || evidence.not_nearer) &&
+    if (least_m >= range_m + thresholds_.range_m + rounding_m && (inside || evidence.not_nearer) &&
         (evidence.not_farther || evidence.surrounded())) {
       evidence.any |= inside;
       evidence.not_nearer = true;

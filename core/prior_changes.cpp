@@ -148,10 +148,12 @@ class PriorSearch {
   bool is_nearer_to_another(std::uint32_t q, const Eigen::Vector3d& place_m, double distance_m) const {
     const PriorState& state = states_[q];
     bool near = false;
-    for_each_return_around(
-        priors_[q].index.impl(), place_m, distance_m,
-        [&](std::uint32_t i) { near |= !(*state.is_grown)[state.sources[i]]; },
-        [&](std::uint32_t cell) { return !near && state.is_grown->some_left_in(cell); });
+    const auto look_at = [&](std::uint32_t i) {
+      near |= !(*state.is_grown)[state.sources[i]];
+      return !near;
+    };
+    for_each_return_around(priors_[q].index.impl(), place_m, distance_m, look_at,
+                           [&](std::uint32_t cell) { return state.is_grown->some_left_in(cell); });
     return near;
   }
 

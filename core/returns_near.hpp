@@ -2,39 +2,73 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <type_traits>
 
 #include "core/cone.hpp"
 #include "core/prior_index_impl.hpp"
 
 namespace raywatch {
 
-/// Every cell is of interest.
-inline constexpr auto kAnyCell = [](std::uint32_t) { return true; };
+/// Calls `visit` and tells whether to go on: what it returns, and always if it returns nothing.
+template <class Visit, class... Arguments>
+bool goes_on(Visit& visit, const Arguments&... arguments) {
+  if constexpr (std::is_void_v<decltype(visit(arguments...))>) {
+    visit(arguments...);
+    return true;
+  } else {
+    return visit(arguments...);
+  }
+}
 
-/// Calls visit(i) for the returns of an index in the cells that a cone touches: all that lie in the cone, and some
-/// more. Cells for which `matters(cell)` is false are passed over.
-template <class Visit, class Matters = decltype(kAnyCell)>
+/// Calls visit(i) for the returns of an index in the cells that a cone touches, all that lie in the cone and some more,
+/// until it returns false; it may return nothing.
+template <class Visit>
 void for_each_return_near(const PriorIndex::Impl& index, const Eigen::Vector3d& direction, double angle_rad,
-                          Visit visit, const Matters& matters = kAnyCell) {
+                          Visit visit) {
   const Direction axis = direction_of(direction.x(), direction.y(), direction.z());
-  Cone(std::min(angle_rad, std::numbers::pi / 2)).for_each_cell(index.grid, axis, [&](std::uint32_t cell, bool) {
-    if (!matters(cell)) return true;
-    for (std::uint32_t i = index.first[cell]; i < index.first[cell + 1]; ++i) visit(i);
+  const Cone cone(std::min(angle_rad, std::numbers::pi / 2));
+  cone.for_each_stretch(index.grid, axis, [&](std::uint32_t first, std::uint32_t end) {
+    for (std::uint32_t i = index.first[first]; i < index.first[end]; ++i) {
+      if (!goes_on(visit, i)) return false;
+    }
     return true;
   });
 }
 
-/// The same for a ball that the sensor does not stand in; nothing when it does.
+/// Every cell is of interest.
+inline constexpr auto kAnyCell = [](std::uint32_t) { return true; };
+
+/// The same for a ball that the sensor does not stand in: all returns in it, and none else. Nothing when the sensor
+/// does. Cells for which `matters(cell)` is false are passed over.
 template <class Visit, class Matters = decltype(kAnyCell)>
 void for_each_return_around(const PriorIndex::Impl& index, const Eigen::Vector3d& center_m, double radius_m,
                             Visit visit, const Matters& matters = kAnyCell) {
   const double range_m = center_m.norm();
   if (!(range_m > radius_m)) return;
-  const auto visit_inside = [&](std::uint32_t i) {
-    if ((point_of(index.returns[i]) - center_m).squaredNorm() < radius_m * radius_m) visit(i);
+  const double rounding_m = kRangeError * (2.0 * range_m + radius_m);
+  const auto nearest_m = static_cast<float>(range_m - radius_m - rounding_m);
+  const auto farthest_m = static_cast<float>(range_m + radius_m + rounding_m);
+  const auto may_hold = [&](std::uint32_t cell) {
+    return (index.least_m[cell] <= farthest_m) & (index.greatest_m[cell] >= nearest_m) & matters(cell);
   };
-  for_each_return_near(index, center_m, std::asin(radius_m / range_m), visit_inside, matters);
+  const auto visit_inside = [&](std::uint32_t i) {
+    return (point_of(index.returns[i]) - center_m).squaredNorm() >= radius_m * radius_m || goes_on(visit, i);
+  };
+  const Direction axis = direction_of(center_m.x(), center_m.y(), center_m.z());
+  Cone(std::asin(radius_m / range_m)).for_each_stretch(index.grid, axis, [&](std::uint32_t first, std::uint32_t end) {
+    // Where nothing is in reach, as in most rows around a thing that stands free, one test without branches says so.
+    std::uint32_t some = 0;
+    for (std::uint32_t cell = first; cell < end; ++cell) some |= static_cast<std::uint32_t>(may_hold(cell));
+    for (std::uint32_t cell = first; some != 0 && cell < end; ++cell) {
+      if (!may_hold(cell)) continue;
+      for (std::uint32_t i = index.first[cell]; i < index.first[cell + 1]; ++i) {
+        if (!visit_inside(i)) return false;
+      }
+    }
+    return true;
+  });
 }
 
 }  // namespace raywatch

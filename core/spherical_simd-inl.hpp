@@ -85,12 +85,6 @@ struct RowEntries {
   Ints first;
 };
 
-/// Rows as whole numbers, those that are none of the grid's moved to its nearest.
-inline Ints bounded_rows(const DirectionGridView& grid, Floats row) {
-  const IntTag di;
-  return hn::Min(hn::Max(hn::ConvertTo(di, row), hn::Zero(di)), hn::Set(di, grid.rows - 1));
-}
-
 /// The cells of directions. Lanes out of the band of elevations are not `in_band` and get the nearest row's cell; lanes
 /// that are no numbers get some valid cell. The grid must have a row.
 struct CellLookup {
@@ -105,7 +99,7 @@ inline CellLookup cells_of(const DirectionGridView& grid, Floats azimuth, Floats
   const FloatMask in_band = hn::And(hn::Ge(row, hn::Zero(d)), hn::Lt(row, rows));
   const Floats bounded =
       hn::Min(hn::Max(hn::IfThenElseZero(hn::Eq(row, row), row), hn::Zero(d)), hn::Sub(rows, constant(1.0f)));
-  const auto [columns, first] = RowEntries(grid, bounded_rows(grid, bounded));
+  const auto [columns, first] = RowEntries(grid, hn::ConvertTo(di, bounded));
   const Floats turn = hn::MulAdd(azimuth, constant(0.5f * std::numbers::inv_pi_v<float>), constant(0.5f));
   const Floats column = hn::Mul(hn::IfThenElseZero(hn::Ge(turn, hn::Zero(d)), turn), columns);
   const Ints column_index = hn::ConvertTo(di, hn::Min(column, hn::Sub(columns, constant(1.0f))));
