@@ -6,6 +6,8 @@
 #define RAYWATCH_CONE_RETURNS_INL
 #endif
 
+#include <algorithm>
+#include <cstring>
 #include <vector>
 
 #include "core/cone_spans-inl.hpp"
@@ -42,22 +44,46 @@ class ConeReturns {
     }
   }
 
-  /// Calls `visit(return, lanes that have one)`: the number of one return a lane, until every lane has had all of its
-  /// own.
+  /// Calls `visit(coordinates, lanes that have one)`: one return a lane, until every lane has had all of its own. The
+  /// other lanes hold any return. Copies the returns of some vectors at a time: much faster than to gather them.
   template <class Visit>
-  HWY_INLINE void for_each(Visit visit) const {
+  HWY_INLINE void for_each(Visit visit) {
+    const FloatTag d;
     const IntTag di;
     for (std::size_t k = 0; k < stretches_; ++k) {
-      const Ints end = hn::LoadU(di, &end_[k * kMostLanes]);
-      for (Ints i = hn::LoadU(di, &begin_[k * kMostLanes]);; i = hn::Add(i, hn::Set(di, 1))) {
-        const auto present = hn::Lt(i, end);
-        if (hn::AllFalse(di, present)) break;
-        visit(i, hn::RebindMask(FloatTag(), present));
+      const Ints begin = hn::LoadU(di, &begin_[k * kMostLanes]), end = hn::LoadU(di, &end_[k * kMostLanes]);
+      const std::int32_t most = hn::GetLane(hn::MaxOfLanes(di, hn::Sub(end, begin)));
+      for (std::int32_t at = 0; at < most; at += kAtOnce) {
+        const std::int32_t count = std::min(kAtOnce, most - at);
+        copy(&begin_[k * kMostLanes], at, count);
+        for (std::int32_t i = 0; i < count; ++i) {
+          Coordinates returns;
+          Floats unused;
+          hn::LoadInterleaved4(d, copied_[i], returns.x, returns.y, returns.z, unused);
+          const auto present = hn::Lt(hn::Add(begin, hn::Set(di, at + i)), end);
+          visit(returns, hn::RebindMask(d, present));
+        }
       }
     }
   }
 
  private:
+  static constexpr std::int32_t kAtOnce = 8;
+  static constexpr std::size_t kWidth = 4;  // floats that a return takes in `copied_`; one is unused
+
+  /// Copies `count` returns of each lane, beginning `at` behind its first.
+  HWY_INLINE void copy(const std::int32_t* begin, std::int32_t at, std::int32_t count) {
+    static_assert(sizeof(Return) == 3 * sizeof(float));
+    const auto& returns = prior_.index.returns;
+    const auto last = static_cast<std::int32_t>(returns.size()) - 1;
+    for (std::int32_t i = 0; i < count; ++i) {
+      for (std::size_t lane = 0; lane < hn::Lanes(IntTag()); ++lane) {
+        // Reads into the next return, or into the padding behind the last.
+        std::memcpy(&copied_[i][lane * kWidth], &returns[std::min(begin[lane] + at + i, last)], kWidth * sizeof(float));
+      }
+    }
+  }
+
   void grow(std::size_t stretches) {
     if (stretches <= stretches_) return;
     stretches_ = stretches;
@@ -86,6 +112,7 @@ class ConeReturns {
   ConeSpans spans_;
   std::size_t stretches_ = 0;
   std::vector<std::int32_t> begin_, end_;  ///< first return of each stretch, and the one behind it; by stretch, lane
+  HWY_ALIGN float copied_[kAtOnce][kMostLanes * kWidth];
 };
 
 }  // namespace raywatch::HWY_NAMESPACE

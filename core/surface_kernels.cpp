@@ -90,9 +90,7 @@ struct Regression {
 class SurfaceFinder {
  public:
   explicit SurfaceFinder(const PreparedPrior& prior)
-      : returns_(prior.index.returns.data()),
-        around_(prior),
-        tangent_(static_cast<float>(std::tan(prior.thresholds.angle_rad))) {}
+      : around_(prior), tangent_(static_cast<float>(std::tan(prior.thresholds.angle_rad))) {}
 
   void find(const Coordinates& points, std::size_t count, Surface* surfaces) {
     const TangentFrame frame(points);
@@ -117,22 +115,14 @@ class SurfaceFinder {
   /// What the fit needs of a return in the cone; zeros of one that is not.
   static constexpr std::size_t kKept = 4;
 
-  Coordinates gather(Ints i, FloatMask present) const {
-    const FloatTag d;
-    const IntTag di;
-    const auto* base = reinterpret_cast<const float*>(returns_);
-    const Ints place = hn::IfThenElseZero(hn::RebindMask(di, present), hn::Add(hn::Add(i, i), i));
-    return {hn::GatherIndex(d, base, place), hn::GatherIndex(d, base + 1, place), hn::GatherIndex(d, base + 2, place)};
-  }
-
   /// Sums over the returns in the cones, in units of tan(T_a) across and of the point's range along the ray.
   Sums look_around(const TangentFrame& frame) {
     const FloatTag d;
     Sums sums;
     kept_ = 0;
     const Floats per_tangent = constant(1.0f / tangent_);
-    around_.for_each([&](Ints i, FloatMask present) HWY_ATTR {
-      const TangentFrame::Components q = frame.of(gather(i, present));
+    around_.for_each([&](const Coordinates& returns, FloatMask present) HWY_ATTR {
+      const TangentFrame::Components q = frame.of(returns);
       const Floats inverse = hn::Div(constant(1.0f), q.outward);
       const Floats scale = hn::Mul(inverse, per_tangent);
       const Floats east = hn::Mul(q.east, scale), north = hn::Mul(q.north, scale);
@@ -197,7 +187,6 @@ class SurfaceFinder {
     for (std::size_t k = 0; k < count; ++k) surfaces[k] = {plane[k] != 0.0f, before[k], cosine[k], off[k], nearest[k]};
   }
 
-  const Return* returns_;
   ConeReturns around_;
   float tangent_;
   std::size_t kept_ = 0;
