@@ -48,15 +48,19 @@ class Cone {
   template <class Visit>
   void for_each_stretch(const DirectionGrid& grid, const Direction& axis, Visit&& visit) const {
     for_each_row(grid, axis, [&](std::uint32_t row, const Columns& outer, double) {
-      const auto columns = static_cast<std::int64_t>(grid.columns(row));
-      const auto stretch = [&](std::int64_t first, std::int64_t end) {
-        const std::uint32_t cell = grid.first_cell(row);
-        return first >= end || visit(cell + static_cast<std::uint32_t>(first), cell + static_cast<std::uint32_t>(end));
-      };
-      const std::int64_t first = outer.first, end = outer.last + 1;
-      return stretch(first + columns, std::min(columns, end + columns)) &&
-             stretch(std::max<std::int64_t>(first, 0), std::min(columns, end)) && stretch(0, end - columns);
+      return visit_stretches(grid, row, outer, visit);
     });
+  }
+
+  /// The same for the box of azimuths and elevations around the cone: more cells, but found much faster.
+  template <class Visit>
+  void for_each_stretch_of_box(const DirectionGrid& grid, const Direction& axis, Visit&& visit) const {
+    const double sine = std::sin(outer_rad_), cosine = std::cos(static_cast<double>(axis.elevation_rad));
+    const double half_rad = sine < cosine ? std::asin(sine / cosine) + kMargin_rad : std::numbers::pi;
+    const Rows rows = rows_of(grid, axis);
+    for (std::uint32_t row = rows.first; row < rows.end; ++row) {
+      if (!visit_stretches(grid, row, columns_within(grid, axis, row, half_rad), visit)) return;
+    }
   }
 
  private:
@@ -90,17 +94,44 @@ class Cone {
     std::int64_t first = 0, last = -1;
   };
 
+  /// Rows first..end - 1 of the grid.
+  struct Rows {
+    std::uint32_t first = 0, end = 0;
+  };
+  Rows rows_of(const DirectionGrid& grid, const Direction& axis) const {
+    const double low = grid.row_coordinate(axis.elevation_rad - outer_rad_);
+    const double high = grid.row_coordinate(axis.elevation_rad + outer_rad_);
+    if (grid.rows() == 0 || high < 0.0 || low >= static_cast<double>(grid.rows())) return {};
+    const auto last = static_cast<std::uint32_t>(std::min(high, static_cast<double>(grid.rows() - 1)));
+    return {static_cast<std::uint32_t>(std::max(low, 0.0)), last + 1};
+  }
+
+  static Columns columns_within(const DirectionGrid& grid, const Direction& axis, std::uint32_t row, double half_rad) {
+    const auto columns = static_cast<std::int64_t>(grid.columns(row));
+    const double half = half_rad * static_cast<double>(columns) / (2.0 * std::numbers::pi);
+    const double center = grid.column_coordinate(row, axis.azimuth_rad);
+    const Columns within{floor_of(center - half), floor_of(center + half)};
+    return within.last - within.first >= columns ? Columns{0, columns - 1} : within;
+  }
+
+  template <class Visit>
+  static bool visit_stretches(const DirectionGrid& grid, std::uint32_t row, const Columns& touched, Visit& visit) {
+    const auto columns = static_cast<std::int64_t>(grid.columns(row));
+    const auto stretch = [&](std::int64_t first, std::int64_t end) {
+      const std::uint32_t cell = grid.first_cell(row);
+      return first >= end || visit(cell + static_cast<std::uint32_t>(first), cell + static_cast<std::uint32_t>(end));
+    };
+    const std::int64_t first = touched.first, end = touched.last + 1;
+    return stretch(first + columns, std::min(columns, end + columns)) &&
+           stretch(std::max<std::int64_t>(first, 0), std::min(columns, end)) && stretch(0, end - columns);
+  }
+
   /// Calls `visit(row, columns that the cone touches, cosine of the axis' elevation)` until it returns false.
   template <class Visit>
   void for_each_row(const DirectionGrid& grid, const Direction& axis, Visit&& visit) const {
-    const double elevation = axis.elevation_rad;
-    const double low = grid.row_coordinate(elevation - outer_rad_);
-    const double high = grid.row_coordinate(elevation + outer_rad_);
-    if (grid.rows() == 0 || high < 0.0 || low >= static_cast<double>(grid.rows())) return;
-    const auto first = static_cast<std::uint32_t>(std::max(low, 0.0));
-    const auto last = static_cast<std::uint32_t>(std::min(high, static_cast<double>(grid.rows() - 1)));
-    const double cosine = std::max(0.0, std::cos(elevation));
-    for (std::uint32_t row = first; row <= last; ++row) {
+    const double cosine = std::max(0.0, std::cos(static_cast<double>(axis.elevation_rad)));
+    const Rows rows = rows_of(grid, axis);
+    for (std::uint32_t row = rows.first; row < rows.end; ++row) {
       const std::optional<Columns> outer = outer_columns(grid, axis, row, cosine);
       if (outer && !visit(row, *outer, cosine)) return;
     }
@@ -116,12 +147,8 @@ class Cone {
     const double nearest = std::max({0.0, bottom - axis.elevation_rad, axis.elevation_rad - top});
     const double rest = outer_haversine_ - haversine(nearest), scale = cosine * grid.least_cosine(row);
     if (rest < 0.0) return std::nullopt;
-    const auto columns = static_cast<std::int64_t>(grid.columns(row));
-    const double half_rad = rest < scale ? angle_of_haversine(rest / scale) + kMargin_rad : std::numbers::pi;
-    const double half = half_rad * static_cast<double>(columns) / (2.0 * std::numbers::pi);
-    const double center = grid.column_coordinate(row, axis.azimuth_rad);
-    const Columns touched{floor_of(center - half), floor_of(center + half)};
-    return touched.last - touched.first >= columns ? Columns{0, columns - 1} : touched;
+    return columns_within(grid, axis, row,
+                          rest < scale ? angle_of_haversine(rest / scale) + kMargin_rad : std::numbers::pi);
   }
 
   /// Those that the cone contains, of the columns `outer` that it touches.

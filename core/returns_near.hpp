@@ -57,18 +57,20 @@ void for_each_return_around(const PriorIndex::Impl& index, const Eigen::Vector3d
     return (point_of(index.returns[i]) - center_m).squaredNorm() >= radius_m * radius_m || goes_on(visit, i);
   };
   const Direction axis = direction_of(center_m.x(), center_m.y(), center_m.z());
-  Cone(std::asin(radius_m / range_m)).for_each_stretch(index.grid, axis, [&](std::uint32_t first, std::uint32_t end) {
-    // Where nothing is in reach, as in most rows around a thing that stands free, one test without branches says so.
-    std::uint32_t some = 0;
-    for (std::uint32_t cell = first; cell < end; ++cell) some |= static_cast<std::uint32_t>(may_hold(cell));
-    for (std::uint32_t cell = first; some != 0 && cell < end; ++cell) {
-      if (!may_hold(cell)) continue;
-      for (std::uint32_t i = index.first[cell]; i < index.first[cell + 1]; ++i) {
-        if (!visit_inside(i)) return false;
-      }
-    }
-    return true;
-  });
+  Cone(std::asin(radius_m / range_m))
+      .for_each_stretch_of_box(index.grid, axis, [&](std::uint32_t first, std::uint32_t end) {
+        // Where nothing is in reach, as in most rows around a thing that stands free, one test without branches says
+        // so.
+        std::uint32_t some = 0;
+        for (std::uint32_t cell = first; cell < end; ++cell) some |= static_cast<std::uint32_t>(may_hold(cell));
+        for (std::uint32_t cell = first; some != 0 && cell < end; ++cell) {
+          if (!may_hold(cell)) continue;
+          for (std::uint32_t i = index.first[cell]; i < index.first[cell + 1]; ++i) {
+            if (!visit_inside(i)) return false;
+          }
+        }
+        return true;
+      });
 }
 
 }  // namespace raywatch
