@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/returns_near.hpp"
@@ -59,6 +61,7 @@ class Surround {
   void add(std::uint32_t i, const Eigen::Vector3d& member_m) {
     const double member_range_m = member_m.norm(), along_m2 = end_m_.dot(member_m);
     if (along_m2 < cosine_m_ * member_range_m) return;
+    is_near_some_ |= i < kMostClusterMembers;
     farthest_m_ = std::max(farthest_m_, member_range_m);
     if (along_m2 > greatest_along_m_ * member_range_m) {
       greatest_along_m_ = along_m2 / member_range_m;
@@ -71,9 +74,10 @@ class Surround {
     north_ |= e >= 0.0;
   }
 
-  /// Whether there are members on all sides, and the ray ends well behind all of them.
+  /// Whether there are members on all sides, one of those that are looked at among them, and the ray ends well behind
+  /// all of them.
   bool lets_through(double margin_m) const {
-    return west_ && east_ && south_ && north_ && range_m_ >= farthest_m_ + margin_m;
+    return is_near_some_ && west_ && east_ && south_ && north_ && range_m_ >= farthest_m_ + margin_m;
   }
 
   std::uint32_t nearest() const { return nearest_; }  ///< the member with the smallest angle to the ray
@@ -83,6 +87,7 @@ class Surround {
   double range_m_, cosine_m_;
   double greatest_along_m_ = -1.0, farthest_m_ = 0.0;
   std::uint32_t nearest_ = 0;
+  bool is_near_some_ = false;
   bool west_ = false, east_ = false, south_ = false, north_ = false;
 };
 
@@ -95,28 +100,61 @@ class RayCounter {
 
   std::size_t operator()() {
     std::size_t through = 0;
-    for (const std::uint32_t ray : rays_near()) {
-      if (goes_through(point_of(rays_.returns[ray])) && ++through == search_.enough) break;
+    for (const Stretch& near : rays_near()) {
+      for (std::uint32_t ray = near.first; ray < near.end; ++ray) {
+        if (goes_through(point_of(rays_.returns[ray])) && ++through == search_.enough) return through;
+      }
     }
     return through;
   }
 
  private:
-  /// The rays that end in the directions of members. These are sorted by direction, so that the part of a large cluster
-  /// that is looked at is a band of it, without holes.
-  std::vector<std::uint32_t> rays_near() const {
-    const double cosine = std::cos(search_.angle_rad);
-    std::vector<std::uint32_t> near;
+  /// Neighbouring rays first..end - 1.
+  struct Stretch {
+    std::uint32_t first = 0, end = 0;
+
+    bool meets(const Stretch& other) const { return first <= other.end && other.first <= end; }
+    void join(const Stretch& other) {
+      first = std::min(first, other.first);
+      end = std::max(end, other.end);
+    }
+  };
+
+  /// All rays that end in the directions of members, and some beside them, in order. Members are sorted by direction,
+  /// so that the part of a large cluster that is looked at is a band of it, without holes, and what one member adds to
+  /// a row mostly continues what the one before it did.
+  std::vector<Stretch> rays_near() const {
+    std::vector<Stretch> all, latest;
+    const Cone cone(std::min(search_.angle_rad, std::numbers::pi / 2));
     for (std::size_t k = 0; k < std::min(kMostClusterMembers, cluster_.returns.size()); ++k) {
-      const Eigen::Vector3d member_m = point_of(cluster_.returns[k]);
-      for_each_return_near(rays_, member_m, search_.angle_rad, [&](std::uint32_t i) {
-        const Eigen::Vector3d end_m = point_of(rays_.returns[i]);
-        if (end_m.dot(member_m) >= cosine * end_m.norm() * member_m.norm()) near.push_back(i);
+      std::size_t row = 0;
+      cone.for_each_stretch(rays_.grid, direction_of(cluster_.returns[k]), [&](std::uint32_t first, std::uint32_t end) {
+        const Stretch rays{rays_.first[first], rays_.first[end]};
+        if (row == latest.size()) latest.push_back(rays);
+        if (latest[row].meets(rays)) {
+          latest[row].join(rays);
+        } else {
+          all.push_back(std::exchange(latest[row], rays));
+        }
+        ++row;
+        return true;
       });
     }
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
-    return near;
+    all.insert(all.end(), latest.begin(), latest.end());
+    return joined(std::move(all));
+  }
+
+  static std::vector<Stretch> joined(std::vector<Stretch> stretches) {
+    std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
+    std::vector<Stretch> result;
+    for (const Stretch& next : stretches) {
+      if (result.empty() || !result.back().meets(next)) {
+        result.push_back(next);
+      } else {
+        result.back().join(next);
+      }
+    }
+    return result;
   }
 
   bool goes_through(const Eigen::Vector3d& end_m) {
