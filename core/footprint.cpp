@@ -14,15 +14,18 @@ class ShotsAround {
   ShotsAround(const PriorIndex::Impl& index, const Eigen::Vector3d& point_m, const Eigen::Vector2d& radii_rad)
       : index_(index),
         point_m_(point_m),
-        radii_rad_(radii_rad),
+        widest_rad_(radii_rad.maxCoeff()),
         east_(Eigen::Vector3d::UnitZ().cross(point_m).normalized()),
-        north_(point_m.cross(east_) / point_m.norm()) {}
+        north_(point_m.cross(east_).normalized()) {
+    east_ /= radii_rad.x();
+    north_ /= radii_rad.y();
+  }
 
   /// Whether there are some on every side.
   bool surround() const {
     Sides sides;
-    for_each([&](const Eigen::Vector2d& offset_rad, double) {
-      sides.add(offset_rad);
+    for_each([&](double east, double north, double) {
+      sides.add(east, north);
       return !sides.all();
     });
     return sides.all();
@@ -32,9 +35,9 @@ class ShotsAround {
   bool surround_beyond(double least_range_m) const {
     Sides sides;
     bool beyond = true;
-    for_each([&](const Eigen::Vector2d& offset_rad, double end_range_m) {
-      sides.add(offset_rad);
-      beyond = end_range_m >= least_range_m;
+    for_each([&](double east, double north, double squared_m2) {
+      sides.add(east, north);
+      beyond = squared_m2 >= least_range_m * least_range_m;
       return beyond;
     });
     return beyond && sides.all();
@@ -42,32 +45,32 @@ class ShotsAround {
 
  private:
   struct Sides {
-    bool west = false, east = false, south = false, north = false;
-    void add(const Eigen::Vector2d& offset_rad) {
-      west |= offset_rad.x() <= 0.0;
-      east |= offset_rad.x() >= 0.0;
-      south |= offset_rad.y() < 0.0;
-      north |= offset_rad.y() > 0.0;
+    bool is_west = false, is_east = false, is_south = false, is_north = false;
+    void add(double east, double north) {
+      is_west |= east <= 0.0;
+      is_east |= east >= 0.0;
+      is_south |= north < 0.0;
+      is_north |= north > 0.0;
     }
-    bool all() const { return west && east && south && north; }
+    bool all() const { return is_west && is_east && is_south && is_north; }
   };
 
-  /// Calls visit(offset from the point, range) until it returns false.
+  /// Calls visit(offsets from the point to the east and north, scaled by positive factors, squared range) until it
+  /// returns false.
   template <class Visit>
   void for_each(Visit visit) const {
-    for_each_return_near(index_, point_m_, radii_rad_.maxCoeff(), [&](std::uint32_t i) {
+    for_each_return_near(index_, point_m_, widest_rad_, [&](std::uint32_t i) {
       const Eigen::Vector3d end_m = point_of(index_.returns[i]);
-      const double end_range_m = end_m.norm();
-      const Eigen::Vector2d offset_rad = Eigen::Vector2d(east_.dot(end_m), north_.dot(end_m)) / end_range_m;
-      const bool is_around = end_m.dot(point_m_) >= 0.0 && !(offset_rad.cwiseQuotient(radii_rad_).squaredNorm() > 1.0);
-      return !is_around || visit(offset_rad, end_range_m);
+      const double east = east_.dot(end_m), north = north_.dot(end_m), squared_m2 = end_m.squaredNorm();
+      if (east * east + north * north > squared_m2 || end_m.dot(point_m_) < 0.0) return true;
+      return visit(east, north, squared_m2);
     });
   }
 
   const PriorIndex::Impl& index_;
   Eigen::Vector3d point_m_;
-  Eigen::Vector2d radii_rad_;
-  Eigen::Vector3d east_, north_;
+  double widest_rad_;
+  Eigen::Vector3d east_, north_;  ///< of the tangent plane, divided by the radii: the ellipse is the unit circle
 };
 
 }  // namespace
