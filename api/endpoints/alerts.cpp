@@ -6,8 +6,8 @@
 #include "api/json_body.hpp"
 #include "api/json_object.hpp"
 #include "api/lookup.hpp"
-#include "api/name_rules.hpp"
 #include "api/render.hpp"
+#include "api/signature.hpp"
 #include "storage/acceptance.hpp"
 
 namespace raywatch::endpoints {
@@ -47,7 +47,7 @@ Json render_whole(const Snapshot& snapshot, const AlertRecord& alert) {
 }
 
 struct GivenAction {
-  std::string by, note;
+  Signature signature;
   std::optional<Time> until;
 };
 
@@ -55,9 +55,7 @@ GivenAction parse_action(const nlohmann::json& json, bool has_end) {
   FieldErrors errors;
   JsonObject body(json, "", errors);
   GivenAction action;
-  body.require("by");
-  action.by = body.parsed("by", checked_actor).value_or("");
-  action.note = body.parsed("note", checked_note).value_or("");
+  action.signature = parse_signature(body);
   if (has_end) {
     body.require("until");
     action.until = body.time("until");
@@ -99,8 +97,8 @@ HttpAnswer change_state(Call& call, const std::string& name, AlertState state) {
              [&](Transaction& transaction, const AlertRecord& alert, const GivenAction& action, Time now) {
                change_alert(transaction, alert.id,
                             {.action = name,
-                             .by = action.by,
-                             .note = action.note,
+                             .by = action.signature.by,
+                             .note = action.signature.note,
                              .at = now,
                              .state = state,
                              .snoozed_until = action.until});
@@ -138,7 +136,7 @@ HttpAnswer snooze_alert(Call& call) { return change_state(call, "snoozed", Alert
 HttpAnswer accept_alert(Call& call) {
   return act(call, false, [](Transaction& transaction, const AlertRecord& alert, const GivenAction& action, Time now) {
     if (!alert.track) throw Conflict("Only what was added or removed can be accepted as normal.");
-    accept_track(transaction, *alert.track, {.by = action.by, .note = action.note, .at = now});
+    accept_track(transaction, *alert.track, {.by = action.signature.by, .note = action.signature.note, .at = now});
   });
 }
 

@@ -5,8 +5,8 @@
 #include "api/json_body.hpp"
 #include "api/json_object.hpp"
 #include "api/lookup.hpp"
-#include "api/name_rules.hpp"
 #include "api/render.hpp"
+#include "api/signature.hpp"
 #include "storage/acceptance.hpp"
 
 namespace raywatch::endpoints {
@@ -47,10 +47,8 @@ GivenAcceptance parse_acceptance(const nlohmann::json& json, Time now) {
   FieldErrors errors;
   JsonObject body(json, "", errors);
   GivenAcceptance given;
-  body.require("by");
-  given.who.by = body.parsed("by", checked_actor).value_or("");
-  given.who.note = body.parsed("note", checked_note).value_or("");
-  given.who.at = now;
+  const Signature signature = parse_signature(body);
+  given.who = {signature.by, signature.note, now};
   given.mode = body.parsed("mode", parse_mode).value_or(Mode::extend);
   if (const auto track = body.integer("track", {.min = 1})) given.track = TrackId{*track};
   for (const std::int64_t id : body.integers("scans", {.min = 1}).value_or(std::vector<std::int64_t>{})) {

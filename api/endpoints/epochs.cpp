@@ -10,6 +10,7 @@
 #include "api/name_rules.hpp"
 #include "api/parse_survey.hpp"
 #include "api/render_survey.hpp"
+#include "api/signature.hpp"
 
 namespace raywatch::endpoints {
 namespace {
@@ -65,15 +66,13 @@ HttpAnswer accept_epoch(Call& call) {
   const nlohmann::json json = json_body(call);
   FieldErrors errors;
   JsonObject body(json, "", errors);
-  body.require("by");
-  const std::string by = body.parsed("by", checked_actor).value_or("");
-  const std::string note = body.parsed("note", checked_note).value_or("");
+  const Signature signature = parse_signature(body);
   body.finish();
   errors.throw_if_any();
   const Time now = call.services.now();
   return json_answer(call.services.store.write([&](Transaction& transaction) {
     const EpochRecord epoch = epoch_with(transaction, id);
-    return render(transaction, raywatch::accept_epoch(transaction, epoch.id, {by, note, now}));
+    return render(transaction, raywatch::accept_epoch(transaction, epoch.id, {signature.by, signature.note, now}));
   }));
 }
 

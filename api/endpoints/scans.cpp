@@ -49,7 +49,7 @@ ScanFilter resolve(const Snapshot& snapshot, const GivenFilter& given) {
   return filter;
 }
 
-std::string checked_note(const std::string& note) {
+std::string checked_scan_note(const std::string& note) {
   if (note.size() > 4000) throw InvalidInput("must have at most 4000 bytes");
   return note;
 }
@@ -59,7 +59,7 @@ ScanEdit parse_edit(const nlohmann::json& json) {
   JsonObject body(json, "", errors);
   ScanEdit edit;
   edit.pinned = body.flag("pinned");
-  edit.note = body.parsed("note", checked_note);
+  edit.note = body.parsed("note", checked_scan_note);
   body.refuse_null("pinned");
   body.refuse_null("note");
   body.finish();

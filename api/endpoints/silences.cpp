@@ -4,8 +4,8 @@
 #include "api/json_body.hpp"
 #include "api/json_object.hpp"
 #include "api/lookup.hpp"
-#include "api/name_rules.hpp"
 #include "api/render.hpp"
+#include "api/signature.hpp"
 #include "storage/rules.hpp"
 
 namespace raywatch::endpoints {
@@ -24,14 +24,15 @@ GivenSilence parse_silence(const nlohmann::json& json) {
   FieldErrors errors;
   JsonObject body(json, "", errors);
   GivenSilence given;
-  for (const char* name : {"site", "until", "by"}) body.require(name);
+  for (const char* name : {"site", "until"}) body.require(name);
   given.site = body.text("site").value_or("");
   given.sensor = body.text("sensor");
   if (const auto zone = body.integer("zone", {.min = 1})) given.zone = ZoneId{*zone};
   given.from = body.time("from");
   given.until = body.time("until").value_or(Time{});
-  given.by = body.parsed("by", checked_actor).value_or("");
-  given.note = body.parsed("note", checked_note).value_or("");
+  const Signature signature = parse_signature(body);
+  given.by = signature.by;
+  given.note = signature.note;
   if (given.from && *given.from >= given.until) body.fail("until", "must be later than 'from'");
   body.finish();
   errors.throw_if_any();

@@ -8,10 +8,10 @@
 #include "api/endpoints/survey_endpoints.hpp"
 #include "api/json_body.hpp"
 #include "api/lookup.hpp"
-#include "api/name_rules.hpp"
 #include "api/parse_survey.hpp"
 #include "api/render.hpp"
 #include "api/render_survey.hpp"
+#include "api/signature.hpp"
 #include "storage/epochs.hpp"
 #include "storage/events.hpp"
 
@@ -89,12 +89,10 @@ RunRecord run_of(Transaction& transaction, const GivenSurvey& given, Time now) {
 std::string parse_cancellation(const nlohmann::json& json) {
   FieldErrors errors;
   JsonObject body(json, "", errors);
-  body.require("by");
-  const std::string by = body.parsed("by", checked_actor).value_or("");
-  const std::string note = body.parsed("note", checked_note).value_or("");
+  const Signature signature = parse_signature(body);
   body.finish();
   errors.throw_if_any();
-  return "cancelled by " + by + (note.empty() ? "" : ": " + note);
+  return "cancelled by " + signature.by + (signature.note.empty() ? "" : ": " + signature.note);
 }
 
 /// The survey that a path names, and what it found.
