@@ -1,145 +1,12 @@
 #include "storage/survey_json.hpp"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
-#include "storage/columns.hpp"
+#include "storage/survey_definition_json.hpp"
 
 namespace raywatch {
 namespace {
 
-using Json = nlohmann::json;
-
-std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
-template <class Read>
-auto parse(const std::string& text, const Read& read) {
-  try {
-    return read(Json::parse(text));
-  } catch (const Json::exception& error) {
-    throw CorruptData(std::string("the store holds a broken JSON text: ") + error.what());
-  }
-}
-
-/// @{ A number that need not be finite: infinity and NaN are null in JSON.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-double number(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
-}
-/// @}
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-template <class T>
-std::optional<T> optional_of(const Json& json) {
-  return json.is_null() ? std::nullopt : std::optional(json.get<T>());
-}
-
-template <class SomeId>
-Json ids(const std::vector<SomeId>& all) {
-  Json list = Json::array();
-  for (const SomeId id : all) list.push_back(id.value);
-  return list;
-}
-template <class SomeId>
-std::vector<SomeId> ids_of(const Json& json) {
-  std::vector<SomeId> all;
-  for (const Json& id : json) all.push_back(SomeId{id.get<std::int64_t>()});
-  return all;
-}
-template <class SomeId>
-Json id_of(const std::optional<SomeId>& id) {
-  return id ? Json(id->value) : Json(nullptr);
-}
-template <class SomeId>
-std::optional<SomeId> optional_id(const Json& json) {
-  return json.is_null() ? std::nullopt : std::optional(SomeId{json.get<std::int64_t>()});
-}
-
-Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-Eigen::Vector3d vector_of(const Json& json) {
-  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
-}
-Json json_of(const Pose& pose) {
-  const Eigen::Quaterniond& q = pose.orientation;
-  return {pose.position_m.x(), pose.position_m.y(), pose.position_m.z(), q.x(), q.y(), q.z(), q.w()};
-}
-Pose pose_of(const Json& json) {
-  const auto n = json.get<std::array<double, 7>>();
-  return {Eigen::Quaterniond(n[6], n[3], n[4], n[5]), {n[0], n[1], n[2]}};
-}
-Json json_of(const PoseUncertainty& u) { return {u.position_m, u.angle_rad}; }
-PoseUncertainty uncertainty_of(const Json& json) { return {json.at(0).get<double>(), json.at(1).get<double>()}; }
-
-Json json_of(const FigureThresholds& given) {
-  const LevelThresholds& t = given.thresholds;
-  return {{"figure", to_string(given.figure)}, {"zone", id_of(given.zone)},   {"yellow", or_null(t.yellow)},
-          {"orange", or_null(t.orange)},       {"red", or_null(t.red)},       {"clear_share", t.clear_share},
-          {"raise_after", t.raise_after},      {"clear_after", t.clear_after}};
-}
-FigureThresholds thresholds_of(const Json& json) {
-  return {.figure = parse_survey_figure(json.at("figure").get<std::string>()),
-          .zone = optional_id<ZoneId>(json.at("zone")),
-          .thresholds = {.yellow = optional_of<double>(json.at("yellow")),
-                         .orange = optional_of<double>(json.at("orange")),
-                         .red = optional_of<double>(json.at("red")),
-                         .clear_share = json.at("clear_share").get<double>(),
-                         .raise_after = json.at("raise_after").get<std::uint32_t>(),
-                         .clear_after = json.at("clear_after").get<std::uint32_t>()}};
-}
-
-Json json_of(const M3c2Parameters& p) {
-  return {{"normal_diameter_m", p.normal_diameter_m}, {"projection_diameter_m", p.projection_diameter_m},
-          {"max_distance_m", p.max_distance_m},       {"registration_m", p.registration_m},
-          {"least_points", p.least_points},           {"median", p.statistic == M3c2Statistic::median}};
-}
-M3c2Parameters m3c2_of(const Json& json) {
-  return {.normal_diameter_m = json.at("normal_diameter_m").get<double>(),
-          .projection_diameter_m = json.at("projection_diameter_m").get<double>(),
-          .max_distance_m = json.at("max_distance_m").get<double>(),
-          .registration_m = json.at("registration_m").get<double>(),
-          .least_points = json.at("least_points").get<std::size_t>(),
-          .statistic = json.at("median").get<bool>() ? M3c2Statistic::median : M3c2Statistic::mean};
-}
-
-Json json_of(const SurveyDefinition& d) {
-  Json thresholds = Json::array();
-  for (const FigureThresholds& given : d.thresholds) thresholds.push_back(json_of(given));
-  return {
-      {"zones", ids(d.zones)},
-      {"cell_m", d.cell_m},
-      {"elevation_median", d.elevation.height == CellHeight::median},
-      {"least_quarters", d.elevation.least_quarters},
-      {"m3c2", json_of(d.m3c2)},
-      {"core_spacing_m", d.core_spacing_m},
-      {"reference", to_string(d.reference.policy)},
-      {"reference_epoch", id_of(d.reference.epoch)},
-      {"reference_days", d.reference.days},
-      {"tolerance", {d.tolerance.residual_m, d.tolerance.uncertainty.position_m, d.tolerance.uncertainty.angle_rad}},
-      {"density_t_per_m3", or_null(d.density_t_per_m3)},
-      {"greatest_slope_deg", or_null(d.greatest_slope_deg)},
-      {"thresholds", thresholds}};
-}
-SurveyDefinition definition_of(const Json& json) {
-  SurveyDefinition d;
-  d.zones = ids_of<ZoneId>(json.at("zones"));
-  d.cell_m = json.at("cell_m").get<double>();
-  d.elevation.height = json.at("elevation_median").get<bool>() ? CellHeight::median : CellHeight::mean;
-  d.elevation.least_quarters = json.at("least_quarters").get<std::uint32_t>();
-  d.m3c2 = m3c2_of(json.at("m3c2"));
-  d.core_spacing_m = json.at("core_spacing_m").get<double>();
-  d.reference = {parse_reference_policy(json.at("reference").get<std::string>()),
-                 optional_id<EpochId>(json.at("reference_epoch")), json.at("reference_days").get<std::uint32_t>()};
-  const Json& tolerance = json.at("tolerance");
-  d.tolerance = {tolerance.at(0).get<double>(), {tolerance.at(1).get<double>(), tolerance.at(2).get<double>()}};
-  d.density_t_per_m3 = optional_of<double>(json.at("density_t_per_m3"));
-  // Definitions that were stored before there was such a field do not have it.
-  if (json.contains("greatest_slope_deg")) d.greatest_slope_deg = optional_of<double>(json.at("greatest_slope_deg"));
-  for (const Json& given : json.at("thresholds")) d.thresholds.push_back(thresholds_of(given));
-  return d;
-}
+using namespace json_values;
+using json_values::json_of;  // beside those below
 
 Json json_of(const VolumeFigure& v) { return {v.value_m3, v.random_sigma_m3, v.pose_sigma_m3}; }
 VolumeFigure volume_of(const Json& json) { return {number(json.at(0)), number(json.at(1)), number(json.at(2))}; }
@@ -270,6 +137,7 @@ Json json_of(const SurveyChange& survey_change) {
   if (survey_change.mass) json["mass"] = json_of(*survey_change.mass);
   return json;
 }
+
 template <class T>
 Json list_of(const std::vector<T>& items) {
   Json list = Json::array();
