@@ -1,6 +1,7 @@
 #include "core/cluster_votes.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -53,11 +54,17 @@ std::size_t rays_through(const ScanView& view, std::span<const std::uint32_t> me
   return count_rays(cluster.impl(), asked.index.impl(), {angle_rad, margin_m, kEnoughRays}, &crossing);
 }
 
-void count_penetrated(const ScanView& view, const ScanView& asked, const Sample& sample, double margin_m,
-                      const Crossing& crossing, ClusterVotes& votes) {
+/// Of the points of a sample: around how many all near rays of `asked` crossed the surface, and around how many not all
+/// of them went well behind the point.
+struct Penetration {
+  std::size_t penetrated = 0, blocked = 0;
+};
+
+Penetration penetration_of(const ScanView& view, const ScanView& asked, const Sample& sample, double margin_m,
+                           const Crossing& crossing) {
   constexpr double kHalf = 0.5, kGreatest_rad = 0.3;
   const PriorIndex::Impl& index = asked.index.impl();
-  votes.penetrated = votes.blocked = 0;
+  Penetration count;
   for (std::size_t k = 0; k < sample.own_m.size(); ++k) {
     const Eigen::Vector3d& point_m = sample.asked_m[k];
     const double range_m = point_m.norm();
@@ -73,11 +80,12 @@ void count_penetrated(const ScanView& view, const ScanView& asked, const Sample&
       ends_m.push_back(end_m);
     });
     if (!behind) {
-      ++votes.blocked;
+      ++count.blocked;
     } else if (!ends_m.empty() && crossing.any_of(point_m, ends_m)) {
-      ++votes.penetrated;
+      ++count.penetrated;
     }
   }
+  return count;
 }
 
 /// The distance from a point to the nearest return of `asked`, at most 1 m; in growing balls, as most are near.
@@ -104,8 +112,9 @@ std::optional<ClusterVotes> votes_of(const ScanView& view, std::span<const std::
   const Sample sample = sample_of(view, members, asked);
   const auto count = static_cast<double>(sample.asked_m.size());
   // What is not known yet is as good as it can be.
-  ClusterVotes votes{.rays_through = kEnoughRays, .penetrated = sample.asked_m.size()};
-  const auto is_hopeless = [&] { return log_odds_of_change(votes, 0.0) < least_log_odds; };
+  ClusterVotes votes{
+      .rays_through = kEnoughRays, .penetrated = sample.asked_m.size(), .looked_at = sample.asked_m.size()};
+  const auto is_hopeless = [&] { return log_odds_of_change(votes, {}, parameters) < least_log_odds; };
 
   votes.clearance_m = median_clearance_m(asked, sample);
   if (is_hopeless()) return std::nullopt;
@@ -116,7 +125,9 @@ std::optional<ClusterVotes> votes_of(const ScanView& view, std::span<const std::
   if (is_hopeless()) return std::nullopt;
 
   const Crossing crossing(view, asked, parameters.support_distance_m);
-  count_penetrated(view, asked, sample, parameters.range_m, crossing, votes);
+  const Penetration penetration = penetration_of(view, asked, sample, parameters.range_m, crossing);
+  votes.penetrated = penetration.penetrated;
+  votes.blocked = penetration.blocked;
   if (is_hopeless()) return std::nullopt;
 
   for (const Eigen::Vector3d& point_m : sample.asked_m) {
@@ -129,6 +140,19 @@ std::optional<ClusterVotes> votes_of(const ScanView& view, std::span<const std::
   return votes;
 }
 
+bool shows(const ScanView& asked, const ScanView& view, std::span<const std::uint32_t> members,
+           const CompareParameters& parameters) {
+  constexpr double kBeside = 0.5;  // of the distance that belongs to one thing
+  constexpr double kMostly = 0.45;
+  constexpr std::size_t kLeastBlocked = 4;
+  const Sample sample = sample_of(view, members, asked);
+  if (median_clearance_m(asked, sample) > kBeside * parameters.growth_distance_m) return false;
+  const Crossing crossing(view, asked, parameters.support_distance_m);
+  const Penetration rays = penetration_of(view, asked, sample, parameters.range_m, crossing);
+  return rays.blocked >= kLeastBlocked &&
+         static_cast<double>(rays.blocked) > kMostly * static_cast<double>(rays.blocked + rays.penetrated);
+}
+
 double porosity_of(const ScanView& view, std::span<const std::uint32_t> members, const CompareParameters& parameters) {
   constexpr double kReach = 2.4;  // in spacings: bridges a lost return
   const PriorIndex cluster = index_of(view, members, view);
@@ -138,24 +162,40 @@ double porosity_of(const ScanView& view, std::span<const std::uint32_t> members,
   return through / std::max(1.0, through + members_looked_at);
 }
 
-bool is_scattered(const ScanView& view, std::span<const std::uint32_t> members) {
+ClusterLook look_of(const ScanView& view, std::span<const std::uint32_t> members, const CompareParameters& parameters) {
+  return {.porosity = porosity_of(view, members, parameters),
+          .smoothness = smoothness_of(view, thinned(members, kMostLookedAt))};
+}
+
+bool is_scattered(std::size_t size, double smoothness) {
   constexpr std::size_t kFew = 12, kNotMany = 40;
   // What stands alone has 0.46 at two by three shots; a line of shots, such as a silhouette, has less than 0.25.
   constexpr double kSurface = 0.4, kLine = 0.3;
-  if (members.size() >= kNotMany) return false;
-  return smoothness_of(view, members) < (members.size() < kFew ? kSurface : kLine);
+  return size < kNotMany && smoothness < (size < kFew ? kSurface : kLine);
 }
 
-double log_odds_of_change(const ClusterVotes& votes, double porosity) {
+double log_odds_of_change(const ClusterVotes& votes, const ClusterLook& look, const CompareParameters& parameters) {
   // Beyond these, more tells no more: ground may well be rough for other reasons than leaves.
   constexpr double kMostRays = 60.0, kMostRoughness_m = 0.01;
   constexpr double kLeastClearance_m = 0.02;
-  const auto rays = std::min(kMostRays, static_cast<double>(votes.rays_through));
-  const auto penetrated = static_cast<double>(votes.penetrated), blocked = static_cast<double>(votes.blocked);
-  return -12.32 + 1.51 * std::log1p(rays) + 2.29 * std::log1p(std::min(kMostRays, penetrated)) -
-         1.73 * blocked / (penetrated + blocked + 1.0) - 17.75 * porosity +
-         5.67 * std::log(votes.clearance_m + kLeastClearance_m) + 9.74 * votes.surroundings -
-         569.0 * std::min(kMostRoughness_m, votes.roughness_m);
+  const auto count = [](std::size_t value) { return static_cast<double>(value); };
+  const double rays = std::log1p(std::min(kMostRays, count(votes.rays_through)));
+  const double penetrated = std::log1p(std::min(kMostRays, count(votes.penetrated)));
+  const double blocked = count(votes.blocked) / count(votes.penetrated + votes.blocked + 1);
+  const double clearance = std::log(votes.clearance_m + kLeastClearance_m);
+  const double roughness_m = std::min(kMostRoughness_m, votes.roughness_m);
+  if (parameters.foliage_distance_m == 0.0) {
+    constexpr std::size_t kFewestRays = 2;
+    if (votes.rays_through + votes.penetrated < kFewestRays) return -std::numeric_limits<double>::infinity();
+    const double looked_at = count(std::max<std::size_t>(votes.looked_at, 1));
+    return -10.83 + 1.17 * rays + 0.64 * penetrated + 6.36 * count(votes.penetrated) / looked_at - 3.18 * blocked -
+           22.93 * look.porosity + 6.79 * clearance + 1.61 * std::log(looked_at) + 9.22 * look.smoothness;
+  }
+  // Through many a thing that stays no ray happens to pass but beside it: a post, or the edge of a roof, that is
+  // narrower than the shots of a far scan are apart.
+  const double no_ray = votes.rays_through == 0 ? 1.5 : 0.0;
+  return -12.32 - no_ray + 1.51 * rays + 2.29 * penetrated - 1.73 * blocked - 17.75 * look.porosity + 5.67 * clearance +
+         9.74 * votes.surroundings - 569.0 * roughness_m;
 }
 
 }  // namespace raywatch

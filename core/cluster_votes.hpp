@@ -17,6 +17,7 @@ struct ClusterVotes {
   /// Points with rays of `asked` no farther aside than half the spacing of the scan's own shots, all of which went well
   /// behind the point, or some of which did not. A surface that fills the space between the points stops such rays.
   std::size_t penetrated = 0, blocked = 0;
+  std::size_t looked_at = 0;  ///< points, of which some have no such rays
   /// The median distance of the points from the nearest return of `asked`; at most 1 m. Low where an edge was measured
   /// a second time, a little beside; and of leaves that swayed.
   double clearance_m = 0.0;
@@ -28,23 +29,34 @@ struct ClusterVotes {
 
 /// @param members points of `view`, at least one.
 /// @param least_log_odds what is of interest: nothing is returned when the log-odds of a change are surely below it,
-/// which
-///   is often clear before the rays are counted, the costliest step.
+///   which is often clear before the rays are counted, the costliest step.
 std::optional<ClusterVotes> votes_of(const ScanView& view, std::span<const std::uint32_t> members,
                                      const ScanView& asked, const CompareParameters& parameters, double least_log_odds);
+
+/// Whether `asked` shows a cluster just where it is: most of its rays there end at the cluster's points or beside them.
+bool shows(const ScanView& asked, const ScanView& view, std::span<const std::uint32_t> members,
+           const CompareParameters& parameters);
 
 /// The share of the scan's own rays into a cluster that went through it, 0..1: high for fences, foliage and scattered
 /// returns, through which the rays of other scans can pass, too.
 double porosity_of(const ScanView& view, std::span<const std::uint32_t> members, const CompareParameters& parameters);
 
+/// What a cluster looks like in its own scan.
+struct ClusterLook {
+  double porosity = 0.0;    ///< see `porosity_of`
+  double smoothness = 1.0;  ///< see core/smoothness.hpp; low where returns mix at a silhouette
+};
+ClusterLook look_of(const ScanView& view, std::span<const std::uint32_t> members, const CompareParameters& parameters);
+
 /// Whether a small cluster is no surface: most of the scan's shots beside its points return from elsewhere. So look
 /// mixed returns at a silhouette, a silhouette that is one shot wide, and single returns of a fence or of grass that
 /// happen to lie together.
-bool is_scattered(const ScanView& view, std::span<const std::uint32_t> members);
+bool is_scattered(std::size_t size, double smoothness);
 
-/// The logarithm of the odds that a cluster truly changed, which the votes of one scan and its porosity tell: a
-/// logistic regression over the clusters of simulated places of all kinds. Grows with the rays, the penetrated points,
-/// the clearance and the smoothness, and falls with the others.
-double log_odds_of_change(const ClusterVotes& votes, double porosity);
+/// The logarithm of the odds that a cluster truly changed, which the votes of one scan and its look tell: a logistic
+/// regression over the clusters of simulated places, one of those where leaves and grass are to be reckoned with and
+/// another of those without. Grows with the rays, the penetrated points, the clearance and both kinds of smoothness,
+/// and falls with the others.
+double log_odds_of_change(const ClusterVotes& votes, const ClusterLook& look, const CompareParameters& parameters);
 
 }  // namespace raywatch

@@ -3,6 +3,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <tuple>
 
@@ -49,24 +50,45 @@ class Judge {
       : view_(view), asked_(asked), parameters_(parameters) {}
 
   bool is_sure(const std::vector<std::uint32_t>& cluster) const {
-    constexpr std::size_t kLeastPoints = 5, kRaysThroughScattered = 6;
+    constexpr std::size_t kLeastPoints = 5;
     if (cluster.size() < kLeastPoints) return false;
-    const double least = least_log_odds();
-    std::optional<double> porosity;  // needed of few clusters, whichever scan is asked
+    std::optional<ClusterLook> look;  // needed of few clusters, whichever scan is asked
     return std::any_of(asked_.begin(), asked_.end(), [&](const ScanView& scan) {
-      const std::optional<ClusterVotes> votes = votes_of(view_, cluster, scan, parameters_, least);
-      if (!votes) return false;
-      if (!porosity) porosity = porosity_of(view_, cluster, parameters_);
-      return log_odds_of_change(*votes, *porosity) >= least &&
-             (votes->rays_through >= kRaysThroughScattered || !is_scattered(view_, cluster)) &&
-             !may_be_glass(view_, cluster, scan);
+      return is_changed(cluster, scan, look) && !is_contradicted(cluster, scan);
     });
   }
 
  private:
-  /// Hardly any false cluster of the simulated places reaches it. Where leaves and grass are to be reckoned with, fifty
-  /// clusters of free points are false for one that truly changed; elsewhere six.
-  double least_log_odds() const { return parameters_.foliage_distance_m > 0.0 ? 1.2 : 0.7; }
+  /// Whether the rays of one scan say so.
+  bool is_changed(const std::vector<std::uint32_t>& cluster, const ScanView& scan,
+                  std::optional<ClusterLook>& look) const {
+    constexpr std::size_t kRaysThroughScattered = 6;
+    const double least = least_log_odds(cluster.size());
+    const std::optional<ClusterVotes> votes = votes_of(view_, cluster, scan, parameters_, least);
+    if (!votes) return false;
+    if (!look) look = look_of(view_, cluster, parameters_);
+    return log_odds_of_change(*votes, *look, parameters_) >= least &&
+           (votes->rays_through >= kRaysThroughScattered || !is_scattered(cluster.size(), look->smoothness)) &&
+           !may_be_glass(view_, cluster, scan);
+  }
+
+  /// Whether another scan of the same visit, or a newer one, shows that the cluster was there. A fence may let all rays
+  /// of a far scan pass; that it came and went between two stations of one visit is less likely.
+  bool is_contradicted(const std::vector<std::uint32_t>& cluster, const ScanView& scan) const {
+    constexpr Duration kVisit = std::chrono::hours(1);
+    return std::any_of(asked_.begin(), asked_.end(), [&](const ScanView& other) {
+      return &other != &scan && other.captured_at + kVisit >= scan.captured_at &&
+             shows(other, view_, cluster, parameters_);
+    });
+  }
+
+  /// Hardly any false cluster of the simulated places reaches it. Where leaves and grass are to be reckoned with, many
+  /// more clusters of free points are false than truly changed, above all the smallest.
+  double least_log_odds(std::size_t points) const {
+    constexpr std::size_t kFew = 9;
+    if (parameters_.foliage_distance_m == 0.0) return 1.5;
+    return points < kFew ? 3.0 : 1.2;
+  }
 
   const ScanView& view_;
   std::span<const ScanView> asked_;

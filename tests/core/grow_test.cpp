@@ -120,6 +120,42 @@ TEST_CASE("what came is believed, and neither a fence that was there nor an edge
   CHECK(seeds_of(thing(3, 3), thing(2, 3), added(edge)).empty());
 }
 
+TEST_CASE("a scan shows a thing where its rays end at it, not where it is free or hidden") {
+  const Taken scan = thing(3, 3);
+  const std::vector<std::uint32_t> members = shots_of_thing(3, 3);
+  const Taken hiding(shoot([](int, int) { return kThing_m - 2.0; }));
+  CHECK(shows(scan.view(), scan.view(), members, parameters()));
+  CHECK_FALSE(shows(wall().view(), scan.view(), members, parameters()));
+  CHECK_FALSE(shows(hiding.view(), scan.view(), members, parameters()));
+}
+
+TEST_CASE("what one station of a visit does not see is no change when another station shows it") {
+  const Taken scan = thing(3, 3), free = wall(), shown = thing(3, 3);
+  const auto seeds = [&](Duration shown_before_free) {
+    std::vector<ScanView> asked{free.view(), shown.view()};
+    asked[0].captured_at = Time(std::chrono::hours(100));
+    asked[1].captured_at = asked[0].captured_at - shown_before_free;
+    return find_seeds(scan.view(), added(shots_of_thing(3, 3)), asked, parameters()).size();
+  };
+  CHECK(seeds(std::chrono::minutes(5)) == 0);
+  CHECK(seeds(-std::chrono::minutes(5)) == 0);
+  // Yesterday it stood there, this morning it was gone: it came back.
+  CHECK(seeds(std::chrono::hours(24)) == 49);
+}
+
+TEST_CASE("in rooms a thing close before others is believed when many rays went through, and no rough edge is") {
+  CompareParameters rooms = parameters();
+  rooms.foliage_distance_m = 0.0;
+  const ClusterVotes near{.rays_through = 60, .penetrated = 95, .looked_at = 100, .clearance_m = 0.1};
+  const ClusterVotes few_rays{.rays_through = 12, .penetrated = 9, .looked_at = 100, .clearance_m = 0.14};
+  constexpr double kLeast = 1.5;
+  CHECK(log_odds_of_change(near, {.porosity = 0.0, .smoothness = 0.95}, rooms) > kLeast);
+  CHECK(log_odds_of_change(few_rays, {.porosity = 0.0, .smoothness = 0.95}, rooms) < kLeast);
+  CHECK(log_odds_of_change(near, {.porosity = 0.0, .smoothness = 0.3}, rooms) < kLeast);
+  CHECK(log_odds_of_change(near, {.porosity = 0.3, .smoothness = 0.95}, rooms) < kLeast);
+  CHECK(log_odds_of_change({.looked_at = 20, .clearance_m = 1.0}, {}, rooms) < kLeast);  // no ray says anything
+}
+
 TEST_CASE("the surroundings of a place are smooth at a wall and rough in leaves") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> near_thing(kThing_m - 0.7, kThing_m + 0.7);

@@ -10,6 +10,7 @@
 #include "core/cluster_rays.hpp"
 #include "core/cluster_votes.hpp"
 #include "core/profile.hpp"
+#include "core/smoothness.hpp"
 #include "tests/core/shots.hpp"
 
 namespace raywatch {
@@ -108,12 +109,12 @@ TEST_CASE("single returns of a fence are scattered, a small thing is not") {
     }
   }
   REQUIRE(fence.size() < 12);
-  CHECK(is_scattered(scan.view(), fence));
+  CHECK(is_scattered(fence.size(), smoothness_of(scan.view(), fence)));
   std::vector<std::uint32_t> line;  // a corner, one shot wide
   for (int row = -7; row <= 7; ++row) line.push_back(shot(-10, row));
   const Taken corner(shoot([](int column, int row) { return column == -10 && std::abs(row) <= 7 ? 20.0 : 40.0; }));
-  CHECK(is_scattered(corner.view(), line));
-  CHECK_FALSE(is_scattered(scan.view(), thing));
+  CHECK(is_scattered(line.size(), smoothness_of(corner.view(), line)));
+  CHECK_FALSE(is_scattered(thing.size(), smoothness_of(scan.view(), thing)));
 }
 
 }  // namespace
