@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/cluster.hpp"
+#include "core/cluster_plane.hpp"
 #include "core/cluster_votes.hpp"
 #include "core/glass.hpp"
 
@@ -69,7 +70,7 @@ class Judge {
     if (!look) look = look_of(view_, cluster, parameters_);
     return log_odds_of_change(*votes, *look, parameters_) >= least &&
            (votes->rays_through >= kRaysThroughScattered || !is_scattered(cluster.size(), look->smoothness)) &&
-           !may_be_glass(view_, cluster, scan);
+           !may_be_glass(view_, cluster, scan) && !is_met_edge_on(scan, view_, cluster);
   }
 
   /// Whether another scan of the same visit, or a newer one, shows that the cluster was there. A fence may let all rays
@@ -86,7 +87,7 @@ class Judge {
   /// more clusters of free points are false than truly changed, above all the smallest.
   double least_log_odds(std::size_t points) const {
     constexpr std::size_t kFew = 9;
-    if (parameters_.foliage_distance_m == 0.0) return 2.0;
+    if (parameters_.foliage_distance_m == 0.0) return 1.5;
     return points < kFew ? 3.0 : 1.2;
   }
 

@@ -148,7 +148,7 @@ TEST_CASE("in rooms a thing close before others is believed when many rays went 
   rooms.foliage_distance_m = 0.0;
   const ClusterVotes near{.rays_through = 60, .penetrated = 95, .looked_at = 100, .clearance_m = 0.1};
   const ClusterVotes few_rays{.rays_through = 12, .penetrated = 9, .looked_at = 100, .clearance_m = 0.14};
-  constexpr double kLeast = 2.0;
+  constexpr double kLeast = 1.5;
   CHECK(log_odds_of_change(near, {.porosity = 0.0, .smoothness = 0.95}, rooms) > kLeast);
   CHECK(log_odds_of_change(few_rays, {.porosity = 0.0, .smoothness = 0.95}, rooms) < kLeast);
   CHECK(log_odds_of_change(near, {.porosity = 0.0, .smoothness = 0.3}, rooms) < kLeast);

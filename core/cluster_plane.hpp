@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/compare.hpp"
+
+namespace raywatch {
+
+/// The plane of a flat cluster, in the frame of another scan.
+struct ClusterPlane {
+  Eigen::Vector3d center_m, normal;
+  double thickness_m;                     ///< how flat the cluster had to be: a standard deviation
+  double radius_m;                        ///< of a ball around the centre that holds nearly all members
+  std::vector<Eigen::Vector3d> points_m;  ///< some of the members, evenly spread
+
+  /// Nothing for a cluster that is small, narrow or not flat beside the noise of its scan.
+  static std::optional<ClusterPlane> fit(const ScanView& view, std::span<const std::uint32_t> members,
+                                         const Pose& other_from_view);
+
+  double off_m(const Eigen::Vector3d& point_m) const { return std::abs(normal.dot(point_m - center_m)); }
+  /// The cosine of the incidence at which a sensor meets a place of the plane.
+  double facing(const Eigen::Vector3d& point_m, const Eigen::Vector3d& sensor_m) const;
+  /// The median over the cluster.
+  double median_facing(const Eigen::Vector3d& sensor_m) const;
+};
+
+/// Whether `asked` meets a flat cluster so nearly edge-on (4 degrees) that its rays may as well have passed beside it:
+/// the side of a cupboard, of a shelf.
+/// @param members points of `view`
+bool is_met_edge_on(const ScanView& asked, const ScanView& view, std::span<const std::uint32_t> members);
+
+}  // namespace raywatch
