@@ -49,10 +49,12 @@ double ClusterPlane::median_facing(const Eigen::Vector3d& sensor_m) const {
 }
 
 bool is_met_edge_on(const ScanView& asked, const ScanView& view, std::span<const std::uint32_t> members) {
-  constexpr double kEdgeOn = 0.07;
+  constexpr double kEdgeOn = 0.07, kLeastBreadth_m = 0.05;
   const Pose asked_from_view = asked.world_from_sensor.inverse() * view.world_from_sensor;
   const std::optional<ClusterPlane> plane = ClusterPlane::fit(view, members, asked_from_view);
-  return plane && plane->median_facing(Eigen::Vector3d::Zero()) < kEdgeOn;
+  if (!plane) return false;
+  const double cosine = plane->median_facing(Eigen::Vector3d::Zero());
+  return cosine < kEdgeOn && 2.0 * plane->radius_m * cosine < kLeastBreadth_m;
 }
 
 }  // namespace raywatch

@@ -29,8 +29,8 @@ struct ClusterPlane {
   double median_facing(const Eigen::Vector3d& sensor_m) const;
 };
 
-/// Whether `asked` meets a flat cluster so nearly edge-on (4 degrees) that its rays may as well have passed beside it:
-/// the side of a cupboard, of a shelf.
+/// Whether `asked` meets a flat cluster so nearly edge-on, as less than 5 cm of it and at less than 4 degrees, that its
+/// rays may as well have passed beside it: the side of a cupboard, of a shelf.
 /// @param members points of `view`
 bool is_met_edge_on(const ScanView& asked, const ScanView& view, std::span<const std::uint32_t> members);
 
