@@ -11,15 +11,16 @@
 namespace raywatch {
 
 std::optional<ClusterPlane> ClusterPlane::fit(const ScanView& view, std::span<const std::uint32_t> members,
-                                              const Pose& other_from_view) {
+                                              const ScanView& asked) {
   constexpr std::size_t kMostMembers = 300;  // that are looked at
   constexpr std::size_t kLeastMembers = 20;  // fewer say too little about a plane
   constexpr double kLeastWidth_m = 0.1;
   constexpr double kEven_m = 0.015;  // how even a plane is (standard deviation) beside the noise
   if (members.size() < kLeastMembers) return std::nullopt;
-  ClusterPlane plane{.thickness_m = kEven_m + noise_of(view)};
+  const Pose asked_from_view = asked.world_from_sensor.inverse() * view.world_from_sensor;
+  ClusterPlane plane{.own_sensor_m = asked_from_view.position_m, .thickness_m = kEven_m + noise_of(view)};
   for (const std::uint32_t i : thinned(members, kMostMembers)) {
-    plane.points_m.push_back(other_from_view * view.points[i].cast<double>());
+    plane.points_m.push_back(asked_from_view * view.points[i].cast<double>());
   }
   const auto count = static_cast<double>(plane.points_m.size());
   plane.center_m.setZero();
@@ -48,13 +49,10 @@ double ClusterPlane::median_facing(const Eigen::Vector3d& sensor_m) const {
   return median(std::move(cosines));
 }
 
-bool is_met_edge_on(const ScanView& asked, const ScanView& view, std::span<const std::uint32_t> members) {
+bool ClusterPlane::is_met_edge_on() const {
   constexpr double kEdgeOn = 0.07, kLeastBreadth_m = 0.05;
-  const Pose asked_from_view = asked.world_from_sensor.inverse() * view.world_from_sensor;
-  const std::optional<ClusterPlane> plane = ClusterPlane::fit(view, members, asked_from_view);
-  if (!plane) return false;
-  const double cosine = plane->median_facing(Eigen::Vector3d::Zero());
-  return cosine < kEdgeOn && 2.0 * plane->radius_m * cosine < kLeastBreadth_m;
+  const double cosine = median_facing(Eigen::Vector3d::Zero());
+  return cosine < kEdgeOn && 2.0 * radius_m * cosine < kLeastBreadth_m;
 }
 
 }  // namespace raywatch

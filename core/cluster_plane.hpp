@@ -11,27 +11,27 @@
 
 namespace raywatch {
 
-/// The plane of a flat cluster, in the frame of another scan.
+/// The plane of a flat cluster, in the frame of a scan that is asked about it.
 struct ClusterPlane {
   Eigen::Vector3d center_m, normal;
+  Eigen::Vector3d own_sensor_m;           ///< where the sensor stood that saw the cluster
   double thickness_m;                     ///< how flat the cluster had to be: a standard deviation
   double radius_m;                        ///< of a ball around the centre that holds nearly all members
   std::vector<Eigen::Vector3d> points_m;  ///< some of the members, evenly spread
 
   /// Nothing for a cluster that is small, narrow or not flat beside the noise of its scan.
+  /// @param members points of `view`
   static std::optional<ClusterPlane> fit(const ScanView& view, std::span<const std::uint32_t> members,
-                                         const Pose& other_from_view);
+                                         const ScanView& asked);
 
   double off_m(const Eigen::Vector3d& point_m) const { return std::abs(normal.dot(point_m - center_m)); }
   /// The cosine of the incidence at which a sensor meets a place of the plane.
   double facing(const Eigen::Vector3d& point_m, const Eigen::Vector3d& sensor_m) const;
   /// The median over the cluster.
   double median_facing(const Eigen::Vector3d& sensor_m) const;
+  /// Whether the scan that is asked meets it so nearly edge-on, as less than 5 cm of it and at less than 4 degrees,
+  /// that its rays may as well have passed beside it: the side of a cupboard, of a shelf.
+  bool is_met_edge_on() const;
 };
-
-/// Whether `asked` meets a flat cluster so nearly edge-on, as less than 5 cm of it and at less than 4 degrees, that its
-/// rays may as well have passed beside it: the side of a cupboard, of a shelf.
-/// @param members points of `view`
-bool is_met_edge_on(const ScanView& asked, const ScanView& view, std::span<const std::uint32_t> members);
 
 }  // namespace raywatch

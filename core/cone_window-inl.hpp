@@ -181,16 +181,13 @@ class ConeWindow {
     for (std::size_t line = end; line < lines; ++line) look(line);
   }
 
-  /// Rows, or pairs of rows where rows are paired.
-  std::size_t lines() const { return spans_.are_paired() ? (spans_.rows() + 1) / 2 : spans_.rows(); }
-
-  /// Calls `visit(Cells)` for the vectors of cells in some lines.
+  /// Calls `visit(Cells)` for all vectors of cells.
   template <class Visit>
-  HWY_INLINE void for_each_vector(std::size_t begin, std::size_t end, Visit visit) const {
+  HWY_INLINE void for_each_vector(Visit visit) const {
     if (spans_.are_paired()) {
-      for (std::size_t pair = begin; pair < end; ++pair) visit(pair_of_rows(pair));
+      for (std::size_t pair = 0; pair < (spans_.rows() + 1) / 2; ++pair) visit(pair_of_rows(pair));
     } else {
-      for (std::size_t row = begin; row < end; ++row) for_each_vector_of(row, visit);
+      for (std::size_t row = 0; row < spans_.rows(); ++row) for_each_vector_of(row, visit);
     }
   }
 
@@ -226,7 +223,7 @@ class ConeWindow {
 
   /// Lists the cells whose returns can make a difference.
   HWY_NOINLINE void list_cells(bool with_nearer, bool with_farther, Remains& remains) const {
-    for_each_vector(0, lines(), [&](const Cells& cells) HWY_ATTR {
+    for_each_vector([&](const Cells& cells) HWY_ATTR {
       std::uint32_t listed = bits_of(hn::And(hn::Lt(cells.least, band_.far), hn::Gt(cells.greatest, band_.near)));
       if (with_nearer) listed |= bits_of(hn::Le(cells.least, band_.near)) & ~cells.inside;
       if (with_farther) listed |= bits_of(hn::Ge(cells.greatest, band_.far)) & ~cells.inside;

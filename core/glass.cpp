@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/cluster_plane.hpp"
 #include "core/plane_patch.hpp"
 #include "core/returns_near.hpp"
 #include "core/spread_sample.hpp"
@@ -33,24 +32,21 @@ std::vector<Eigen::Vector3d> returns_on(const ClusterPlane& plane, const ScanVie
 
 }  // namespace
 
-bool may_be_glass(const ScanView& view, std::span<const std::uint32_t> members, const ScanView& asked) {
+bool may_be_glass(const ClusterPlane& plane, const ScanView& asked) {
   constexpr double kOblique = 0.9;      // nearly upright rays no glass lets through without any return
   constexpr double kParallel = 0.9;     // of the normals of a surface and the cluster's plane
   constexpr std::size_t kLeastOn = 10;  // returns that make a surface
   constexpr double kMostAsOblique = 0.1;
-  const Pose asked_from_view = asked.world_from_sensor.inverse() * view.world_from_sensor;
-  const std::optional<ClusterPlane> plane = ClusterPlane::fit(view, members, asked_from_view);
-  if (!plane) return false;
-  const double asked_facing = plane->median_facing(Eigen::Vector3d::Zero());
-  const double own_facing = plane->median_facing(asked_from_view.position_m);
+  const double asked_facing = plane.median_facing(Eigen::Vector3d::Zero());
+  const double own_facing = plane.median_facing(plane.own_sensor_m);
   if (asked_facing > kOblique || own_facing <= asked_facing) return false;
   const PatchFitter surface_at(asked);
   std::size_t on = 0, as_oblique = 0;
-  for (const Eigen::Vector3d& p : returns_on(*plane, asked, kInLine * plane->thickness_m)) {
+  for (const Eigen::Vector3d& p : returns_on(plane, asked, kInLine * plane.thickness_m)) {
     const std::optional<PlanePatch> surface = surface_at(p);
-    if (!surface || std::abs(surface->normal().dot(plane->normal)) < kParallel) continue;
+    if (!surface || std::abs(surface->normal().dot(plane.normal)) < kParallel) continue;
     ++on;
-    as_oblique += plane->facing(p, Eigen::Vector3d::Zero()) <= asked_facing;
+    as_oblique += plane.facing(p, Eigen::Vector3d::Zero()) <= asked_facing;
   }
   return on >= kLeastOn && static_cast<double>(as_oblique) <= kMostAsOblique * static_cast<double>(on);
 }

@@ -11,14 +11,14 @@
 
 namespace raywatch {
 
-/// Calls `visit` and tells whether to go on: what it returns, and always if it returns nothing.
-template <class Visit, class... Arguments>
-bool goes_on(Visit& visit, const Arguments&... arguments) {
-  if constexpr (std::is_void_v<decltype(visit(arguments...))>) {
-    visit(arguments...);
+/// Calls visit(i) and tells whether to go on: what it returns, and always if it returns nothing.
+template <class Visit>
+bool goes_on(Visit& visit, std::uint32_t i) {
+  if constexpr (std::is_void_v<decltype(visit(i))>) {
+    visit(i);
     return true;
   } else {
-    return visit(arguments...);
+    return visit(i);
   }
 }
 

@@ -68,9 +68,10 @@ class Judge {
     const std::optional<ClusterVotes> votes = votes_of(view_, cluster, scan, parameters_, least);
     if (!votes) return false;
     if (!look) look = look_of(view_, cluster, parameters_);
-    return log_odds_of_change(*votes, *look, parameters_) >= least &&
-           (votes->rays_through >= kRaysThroughScattered || !is_scattered(cluster.size(), look->smoothness)) &&
-           !may_be_glass(view_, cluster, scan) && !is_met_edge_on(scan, view_, cluster);
+    if (log_odds_of_change(*votes, *look, parameters_) < least) return false;
+    if (votes->rays_through < kRaysThroughScattered && is_scattered(cluster.size(), look->smoothness)) return false;
+    const std::optional<ClusterPlane> plane = ClusterPlane::fit(view_, cluster, scan);
+    return !plane || !(may_be_glass(*plane, scan) || plane->is_met_edge_on());
   }
 
   /// Whether another scan of the same visit, or a newer one, shows that the cluster was there. A fence may let all rays

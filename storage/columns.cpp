@@ -6,6 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "storage/json_values.hpp"
 #include "storage/sqlite.hpp"
 
 namespace raywatch {
@@ -13,19 +14,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the store's byte layouts are written as they lie in memory");
 
-using Json = nlohmann::json;
-
-/// Bytes that are not UTF-8, such as a file name in a warning, are replaced.
-std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
-template <class Read>
-auto parse(const std::string& text, const Read& read) {
-  try {
-    return read(Json::parse(text));
-  } catch (const Json::exception& error) {
-    throw CorruptData(std::string("the store holds a broken JSON text: ") + error.what());
-  }
-}
+using json_values::dump;
+using json_values::Json;
+using json_values::parse;
 
 double finite(double value, const char* name) {
   if (!std::isfinite(value)) throw InvalidInput("a number is not finite", {{name, "must be finite"}});

@@ -18,6 +18,7 @@ namespace raywatch::json_values {
 
 using Json = nlohmann::json;
 
+/// Bytes that are not UTF-8, such as a file name in a warning, are replaced.
 inline std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 template <class Read>
