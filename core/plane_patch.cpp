@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -24,16 +25,52 @@ constexpr std::size_t kLeastReturns = 5;
 constexpr double kNormalSigmaLimit_rad = 0.12;
 /// No scanner, and no surface, is better than this.
 constexpr double kLeastNoise_m = 0.002;
+/// Returns whose positions spread by less than this, see `OnTwoLines`, lie on two lines.
+constexpr double kLeastSpread = 0.1;
+
+/// Tells whether directions lie on two rows or two columns of shots. A plane goes through any two parallel lines, also
+/// when one of them is the floor and the other the wall behind it, and what is left of the fit does not show that.
+/// By Pearson's inequality (1916) the kurtosis of any distribution is at least 1 + skewness^2, and equal to it only when
+/// there are but two values; three equally frequent ones, a step apart, exceed it by 0.5.
+class OnTwoLines {
+ public:
+  /// @param position across columns and across rows, in any unit.
+  void add(const Eigen::Array2d& position) {
+    Eigen::Array2d power = position;
+    for (Eigen::Array2d& sum : sums_) {
+      sum += power;
+      power *= position;
+    }
+    ++count_;
+  }
+
+  bool operator()() const {
+    const auto n = static_cast<double>(count_);
+    const Eigen::Array2d mean = sums_[0] / n, second = sums_[1] / n, third = sums_[2] / n, fourth = sums_[3] / n;
+    const Eigen::Array2d variance = second - mean.square();
+    const Eigen::Array2d cube = third - 3.0 * mean * second + 2.0 * mean.cube();
+    const Eigen::Array2d tesseract =
+        fourth - 4.0 * mean * third + 6.0 * mean.square() * second - 3.0 * mean.square().square();
+    const Eigen::Array2d spread = tesseract / variance.square() - cube.square() / variance.cube() - 1.0;
+    return !(spread > kLeastSpread).all();
+  }
+
+ private:
+  std::array<Eigen::Array2d, 4> sums_{Eigen::Array2d::Zero(), Eigen::Array2d::Zero(), Eigen::Array2d::Zero(),
+                                      Eigen::Array2d::Zero()};  ///< of the positions' first to fourth powers
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
-/// The sums that the fit needs, and on which sides of the direction there are returns.
+/// The sums that the fit needs, on which sides of the direction there are returns, and in how many lines.
 struct PatchFitter::Moments {
   Eigen::Matrix3d directions = Eigen::Matrix3d::Zero();
   Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
   double inverse_squares_per_m2 = 0.0;
   std::size_t count = 0;
   bool west = false, east = false, south = false, north = false;
+  OnTwoLines on_two_lines;
 
   void add(const Eigen::Vector3d& p, const Eigen::Vector3d& around) {
     const double inverse_per_m = 1.0 / p.norm();
@@ -48,6 +85,7 @@ struct PatchFitter::Moments {
     east |= a >= 0.0;
     south |= e < 0.0;
     north |= e > 0.0;
+    on_two_lines.add({a * inverse_per_m, e * inverse_per_m});
   }
   bool surround() const { return west && east && south && north; }
 };
@@ -85,7 +123,7 @@ PatchFitter::Moments PatchFitter::gather(const Eigen::Vector3d& point_m) const {
 
 std::optional<PlanePatch> PatchFitter::operator()(const Eigen::Vector3d& point_m) const {
   const Moments moments = gather(point_m);
-  if (moments.count < kLeastReturns || !moments.surround()) return std::nullopt;
+  if (moments.count < kLeastReturns || !moments.surround() || moments.on_two_lines()) return std::nullopt;
   const Eigen::LDLT<Eigen::Matrix3d> solver(moments.directions);
   if (solver.info() != Eigen::Success || solver.rcond() < 1e-12) return std::nullopt;
   PlanePatch patch{.n_per_m = solver.solve(moments.weighted)};

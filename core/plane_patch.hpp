@@ -32,7 +32,7 @@ class PatchFitter {
   explicit PatchFitter(const ScanView& scan);
 
   /// The patch around the direction of a point in the scan's sensor frame; empty when the returns there do not surround
-  /// the direction, are not flat within the noise, or too few or too close together for a normal.
+  /// the direction, lie on two lines, are not flat within the noise, or too few or too close together for a normal.
   std::optional<PlanePatch> operator()(const Eigen::Vector3d& point_m) const;
 
   double spacing_rad() const { return spacing_rad_; }  ///< of the scan's shots; the coarser of the two directions
