@@ -104,6 +104,16 @@ double median_clearance_m(const ScanView& asked, const Sample& sample) {
   return median(std::move(distances_m));
 }
 
+/// Whether rays may have passed a strip at most three shots wide although nothing changed: through its gaps, as between
+/// the wires of a fence, when it does not fill its extent; or beside it, as past a post that stands between two columns
+/// of the shots of `asked`, when few of its points were penetrated.
+bool may_have_been_passed(const ShotExtent& extent, const ClusterVotes& votes) {
+  constexpr double kStrip = 3.0, kGaps = 0.6, kFew = 0.3;
+  if (extent.width >= kStrip) return false;
+  const double penetrated = static_cast<double>(votes.penetrated) / static_cast<double>(votes.looked_at);
+  return extent.filled < kGaps || penetrated < kFew;
+}
+
 }  // namespace
 
 std::optional<ClusterVotes> votes_of(const ScanView& view, std::span<const std::uint32_t> members,
@@ -164,7 +174,8 @@ double porosity_of(const ScanView& view, std::span<const std::uint32_t> members,
 
 ClusterLook look_of(const ScanView& view, std::span<const std::uint32_t> members, const CompareParameters& parameters) {
   return {.porosity = porosity_of(view, members, parameters),
-          .smoothness = smoothness_of(view, thinned(members, kMostLookedAt))};
+          .smoothness = smoothness_of(view, thinned(members, kMostLookedAt)),
+          .extent = extent_in_shots(view, members)};
 }
 
 bool is_scattered(std::size_t size, double smoothness) {
@@ -194,8 +205,9 @@ double log_odds_of_change(const ClusterVotes& votes, const ClusterLook& look, co
   // Through many a thing that stays no ray happens to pass but beside it: a post, or the edge of a roof, that is
   // narrower than the shots of a far scan are apart.
   const double no_ray = votes.rays_through == 0 ? 1.5 : 0.0;
-  return -12.32 - no_ray + 1.51 * rays + 2.29 * penetrated - 1.73 * blocked - 17.75 * look.porosity + 5.67 * clearance +
-         9.74 * votes.surroundings - 569.0 * roughness_m;
+  const double passed = look.extent && may_have_been_passed(*look.extent, votes) ? 2.5 : 0.0;
+  return -12.32 - no_ray - passed + 1.51 * rays + 2.29 * penetrated - 1.73 * blocked - 17.75 * look.porosity +
+         5.67 * clearance + 9.74 * votes.surroundings - 569.0 * roughness_m;
 }
 
 }  // namespace raywatch

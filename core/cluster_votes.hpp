@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/compare.hpp"
+#include "core/shot_extent.hpp"
 
 namespace raywatch {
 
@@ -43,8 +44,9 @@ double porosity_of(const ScanView& view, std::span<const std::uint32_t> members,
 
 /// What a cluster looks like in its own scan.
 struct ClusterLook {
-  double porosity = 0.0;    ///< see `porosity_of`
-  double smoothness = 1.0;  ///< see core/smoothness.hpp; low where returns mix at a silhouette
+  double porosity = 0.0;             ///< see `porosity_of`
+  double smoothness = 1.0;           ///< see core/smoothness.hpp; low where returns mix at a silhouette
+  std::optional<ShotExtent> extent;  ///< empty: nothing speaks against it
 };
 ClusterLook look_of(const ScanView& view, std::span<const std::uint32_t> members, const CompareParameters& parameters);
 
