@@ -104,14 +104,28 @@ double median_clearance_m(const ScanView& asked, const Sample& sample) {
   return median(std::move(distances_m));
 }
 
+/// Whether a cluster is full of gaps, as what is left of a surface when other points of it were not free, and as a
+/// fence.
+bool has_gaps(const ShotExtent& extent) {
+  constexpr double kFilled = 0.6;
+  return extent.filled < kFilled;
+}
+
+/// Whether a cluster is a single line of shots that no ray went through: so an edge of a thing that stayed looks, when
+/// the other scan's rays passed beside it.
+bool may_be_an_edge(const ShotExtent& extent, const ClusterVotes& votes) {
+  constexpr double kLine = 1.5;
+  return extent.width < kLine && votes.rays_through == 0;
+}
+
 /// Whether rays may have passed a strip at most three shots wide although nothing changed: through its gaps, as between
-/// the wires of a fence, when it does not fill its extent; or beside it, as past a post that stands between two columns
-/// of the shots of `asked`, when few of its points were penetrated.
+/// the wires of a fence; or beside it, as past a post that stands between two columns of the shots of `asked`, when few
+/// of its points were penetrated.
 bool may_have_been_passed(const ShotExtent& extent, const ClusterVotes& votes) {
-  constexpr double kStrip = 3.0, kGaps = 0.6, kFew = 0.3;
+  constexpr double kStrip = 3.0, kFew = 0.3;
   if (extent.width >= kStrip) return false;
   const double penetrated = static_cast<double>(votes.penetrated) / static_cast<double>(votes.looked_at);
-  return extent.filled < kGaps || penetrated < kFew;
+  return has_gaps(extent) || penetrated < kFew;
 }
 
 }  // namespace
@@ -195,19 +209,23 @@ double log_odds_of_change(const ClusterVotes& votes, const ClusterLook& look, co
   const double blocked = count(votes.blocked) / count(votes.penetrated + votes.blocked + 1);
   const double clearance = std::log(votes.clearance_m + kLeastClearance_m);
   const double roughness_m = std::min(kMostRoughness_m, votes.roughness_m);
+  // What looks as things that stay often do must be so much surer.
+  constexpr double kDoubt = 2.5;
   if (parameters.foliage_distance_m == 0.0) {
     constexpr std::size_t kFewestRays = 2;
     if (votes.rays_through + votes.penetrated < kFewestRays) return -std::numeric_limits<double>::infinity();
     const double looked_at = count(std::max<std::size_t>(votes.looked_at, 1));
-    return -10.83 + 1.17 * rays + 0.64 * penetrated + 6.36 * count(votes.penetrated) / looked_at - 3.18 * blocked -
-           22.93 * look.porosity + 6.79 * clearance + 1.61 * std::log(looked_at) + 9.22 * look.smoothness;
+    const bool in_doubt = look.extent && (has_gaps(*look.extent) || may_be_an_edge(*look.extent, votes));
+    return -10.83 - (in_doubt ? kDoubt : 0.0) + 1.17 * rays + 0.64 * penetrated +
+           6.36 * count(votes.penetrated) / looked_at - 3.18 * blocked - 22.93 * look.porosity + 6.79 * clearance +
+           1.61 * std::log(looked_at) + 9.22 * look.smoothness;
   }
   // Through many a thing that stays no ray happens to pass but beside it: a post, or the edge of a roof, that is
   // narrower than the shots of a far scan are apart.
   const double no_ray = votes.rays_through == 0 ? 1.5 : 0.0;
-  const double passed = look.extent && may_have_been_passed(*look.extent, votes) ? 2.5 : 0.0;
-  return -12.32 - no_ray - passed + 1.51 * rays + 2.29 * penetrated - 1.73 * blocked - 17.75 * look.porosity +
-         5.67 * clearance + 9.74 * votes.surroundings - 569.0 * roughness_m;
+  const bool in_doubt = look.extent && may_have_been_passed(*look.extent, votes);
+  return -12.32 - no_ray - (in_doubt ? kDoubt : 0.0) + 1.51 * rays + 2.29 * penetrated - 1.73 * blocked -
+         17.75 * look.porosity + 5.67 * clearance + 9.74 * votes.surroundings - 569.0 * roughness_m;
 }
 
 }  // namespace raywatch

@@ -101,8 +101,7 @@ class Growth {
       const float distance_m = (point_of(index.returns[i]).cast<float>() - seed_m).norm();
       if (distance_m <= farthest_m) result.push_back({{sources_[i], from.seed, from.point_class}, distance_m});
     };
-    for_each_return_around(index, place_m.cast<double>(), reach, offer,
-                           [&](std::uint32_t cell) { return visited_->some_left_in(cell); });
+    for_each_return_around(index, place_m.cast<double>(), reach, offer, *visited_);
     return result;
   }
 

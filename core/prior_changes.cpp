@@ -136,7 +136,7 @@ class PriorSearch {
         distance_m[place] = std::min(distance_m[place], (point_of(index.returns[i]) - changed_m).norm());
       };
       for_each_return_around(index, changed_m, reach_m(priors_[p], changed_m.cast<float>(), parameters_), offer,
-                             [&](std::uint32_t cell) { return state.is_grown->some_left_in(cell); });
+                             *state.is_grown);
     }
     const Pose q_from_p = p_from_q.inverse();
     tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t k) {
@@ -152,8 +152,7 @@ class PriorSearch {
       near |= !(*state.is_grown)[state.sources[i]];
       return !near;
     };
-    for_each_return_around(priors_[q].index.impl(), place_m, distance_m, look_at,
-                           [&](std::uint32_t cell) { return state.is_grown->some_left_in(cell); });
+    for_each_return_around(priors_[q].index.impl(), place_m, distance_m, look_at, *state.is_grown);
     return near;
   }
 

@@ -88,7 +88,7 @@ class Judge {
   /// more clusters of free points are false than truly changed, above all the smallest.
   double least_log_odds(std::size_t points) const {
     constexpr std::size_t kFew = 9;
-    if (parameters_.foliage_distance_m == 0.0) return 1.5;
+    if (parameters_.foliage_distance_m == 0.0) return 1.1;
     return points < kFew ? 3.0 : 1.2;
   }
 
