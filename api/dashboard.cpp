@@ -102,9 +102,8 @@ HttpAnswer built_without() {
 
 Dashboard Dashboard::read(const fs::path& directory) {
   if (!fs::is_regular_file(directory / "index.html")) {
-    throw InvalidInput("dashboard.directory: " + directory.string() +
-                           " holds no built dashboard: there is no index.html. scripts/build makes one.",
-                       {{"dashboard.directory", "must hold a built dashboard"}});
+    throw InvalidInput(directory.string() +
+                       " holds no built dashboard: there is no index.html; scripts/build makes one");
   }
   Dashboard dashboard;
   std::uintmax_t size = 0;

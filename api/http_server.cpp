@@ -1,6 +1,8 @@
 #include "api/http_server.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 #include <thread>
 
 #include "api/call.hpp"
@@ -40,13 +42,22 @@ struct HttpServer::Impl {
   std::jthread thread;  // last: it uses all the others
 };
 
+std::optional<std::string> complaint_about_host(const HttpConfig& config) {
+  const auto fits = [](unsigned char c) {
+    return std::isalnum(c) != 0 || std::string_view(".-_:%").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (config.host.empty() || !std::ranges::all_of(config.host, fits)) return "must be a host's name or address";
+  if (config.allow_remote || is_loopback_host(config.host)) return std::nullopt;
+  return "is not a loopback address. There are no accounts, so that others are listened on only with --allow-remote, "
+         "or "
+         "allow_remote = true in [http]";
+}
+
 HttpServer::HttpServer(const HttpConfig& config, const Services& services)
     : impl_(std::make_unique<Impl>(config, services)) {
-  if (!config.allow_remote && !is_loopback_host(config.host)) {
-    throw InvalidInput("'" + config.host +
-                           "' is not a loopback address, and others are listened on only when that is " +
-                           "allowed explicitly.",
-                       {{"host", "is not a loopback address"}});
+  if (const auto complaint = complaint_about_host(config)) {
+    throw InvalidInput("The address to listen on, \"" + config.host + "\", " + *complaint + ".",
+                       {{"host", *complaint}});
   }
   const auto port = impl_->listener.bind(config.host, config.port);
   if (!port) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "api/services.hpp"
@@ -24,6 +25,9 @@ struct HttpConfig {
   std::uint64_t min_client_bytes_per_s = 4096;      ///< and so is one that is slower than this, after that time
   std::filesystem::path dashboard_dir = {};         ///< the built dashboard; empty: there is none
 };
+
+/// What is wrong with `config.host`: it is no host, or not loopback without `allow_remote`; nothing when it is good.
+std::optional<std::string> complaint_about_host(const HttpConfig& config);
 
 /// The REST API over HTTP. Listens from construction on; serves from `start` until `stop` or destruction.
 class HttpServer {

@@ -16,7 +16,11 @@
 namespace raywatch {
 namespace {
 
-std::string at_line(const toml::source_region& source) { return "line " + std::to_string(source.begin.line) + ": "; }
+constexpr std::string_view kLine = "line ";
+
+std::string at_line(const toml::source_region& source) {
+  return std::string(kLine) + std::to_string(source.begin.line) + ": ";
+}
 
 std::string type_name(const toml::node& node) {
   std::ostringstream name;
@@ -118,7 +122,9 @@ ConfigReader::ConfigReader(ConfigReader&&) noexcept = default;
 ConfigReader::~ConfigReader() = default;
 
 ConfigReader ConfigReader::open(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) throw InvalidInput(file.string() + ": there is no such file");
+  if (!std::filesystem::exists(file)) throw InvalidInput(file.string() + ": there is no such file");
+  if (std::filesystem::is_directory(file)) throw InvalidInput(file.string() + ": is a directory, not a file");
+  if (!std::filesystem::is_regular_file(file)) throw InvalidInput(file.string() + ": is not a regular file");
   return ConfigReader(read_all(file), file.string());
 }
 
@@ -187,6 +193,11 @@ void ConfigReader::require(std::string_view key) {
   impl_->fail(key, *impl_->root.at_path(parent_of(std::string(key))).node(), "is missing");
 }
 
+void ConfigReader::refuse(std::string_view key, const std::string& message) {
+  const toml::node* node = impl_->root.at_path(key).node();
+  node != nullptr ? impl_->fail(key, *node, message) : impl_->errors.push_back({std::string(key), message});
+}
+
 /// @returns whether the path is that of a known array.
 bool ConfigReader::Impl::refuse_unknown_in_array(const toml::node& node, const std::string& path) {
   if (std::ranges::find(arrays, path) == arrays.end()) return false;
@@ -222,7 +233,9 @@ void ConfigReader::finish() {
   impl_->refuse_unknown(impl_->root, "");
   if (impl_->errors.empty()) return;
   std::string message = impl_->name + ":";
-  for (const FieldError& error : impl_->errors) message += "\n  " + error.field + ", " + error.message;
+  for (const FieldError& error : impl_->errors) {
+    message += "\n  " + error.field + (error.message.starts_with(kLine) ? ", " : ": ") + error.message;
+  }
   throw InvalidInput(message, impl_->errors);
 }
 

@@ -77,6 +77,9 @@ class ConfigReader {
   /// An error unless the file has the key; of a table of such an array.
   void require(std::string_view key);
 
+  /// An error of a key's value that only shows beside others; at its line, when the file has the key.
+  void refuse(std::string_view key, const std::string& message);
+
   /// Ends the reading: keys and tables of the file that no field was bound to are errors too.
   /// @throws InvalidInput when there was any error; its `fields` are the keys with their lines and reasons.
   void finish();

@@ -186,8 +186,13 @@ void check(const CompareParameters& parameters, std::size_t priors) {
   require(parameters.min_range_m >= 0.0, "min_range_m", "must be 0 or more");
   require(parameters.max_range_m > parameters.min_range_m, "max_range_m", "must be above min_range_m");
   require(parameters.contemporary_tolerance >= Duration::zero(), "contemporary_s", "must be 0 or more");
-  require(priors <= 255, "scans", "at most 255 priors can be compared at once");
-  if (!errors.empty()) throw InvalidInput("A parameter of the comparison is out of its range.", std::move(errors));
+  require(priors <= 255, "scans", "must be at most 255 at once");
+  if (errors.empty()) return;
+  std::string message = "A parameter of the comparison is out of its range:";
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    message += (i == 0 ? " " : "; ") + errors[i].field + " " + errors[i].message;
+  }
+  throw InvalidInput(message, std::move(errors));
 }
 
 }  // namespace

@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "storage/formats/write.hpp"
 
 namespace raywatch {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -42,7 +44,21 @@ Planes world_points(const FileScan& scan) {
   return world;
 }
 
-void write_table(const std::filesystem::path& file, const PointTable& table) {
+PointFormat output_format(const fs::path& file) {
+  const std::string ending = file.extension().string();
+  if (ending == ".csv") return PointFormat::csv;
+  if (ending == ".pcd") return PointFormat::pcd;
+  if (ending == ".ply") return PointFormat::ply;
+  throw InvalidInput(file.string() + ": the ending must be .csv, .pcd or .ply");
+}
+
+/// Whether both lead to the same file, by whatever names and links; also when it is not there yet.
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code absent;
+  return fs::equivalent(a, b, absent) || fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
+}
+
+void write_table(const fs::path& file, const PointTable& table) {
   std::ofstream out(file, std::ios::binary);
   if (!out) throw StorageError(file.string() + ": cannot be written");
   write_points(out, output_format(file), table);
@@ -126,15 +142,23 @@ Json priors_json(const FileComparisonRequest& request, const FileComparison& com
 
 }  // namespace
 
-PointFormat output_format(const std::filesystem::path& file) {
-  const std::string ending = file.extension().string();
-  if (ending == ".csv") return PointFormat::csv;
-  if (ending == ".pcd") return PointFormat::pcd;
-  if (ending == ".ply") return PointFormat::ply;
-  throw InvalidInput(file.string() + ": the ending must be .csv, .pcd or .ply");
+void check_outputs(const FileComparisonRequest& request, const std::vector<fs::path>& outputs) {
+  std::vector<fs::path> taken;
+  for (const fs::path& output : outputs) {
+    if (output.empty()) continue;
+    output_format(output);
+    const auto is_output = [&](const fs::path& file) { return is_same_file(file, output); };
+    if (is_output(request.scan) || std::ranges::any_of(request.priors, is_output)) {
+      throw InvalidInput(output.string() + ": is one of the scans; give another file to write to");
+    }
+    if (std::ranges::any_of(taken, is_output)) {
+      throw InvalidInput(output.string() + ": is given twice; each output needs a file of its own");
+    }
+    taken.push_back(output);
+  }
 }
 
-void write_classes(const std::filesystem::path& file, const FileComparison& comparison) {
+void write_classes(const fs::path& file, const FileComparison& comparison) {
   const Comparison& result = comparison.result;
   const Planes world = world_points(comparison.scan);
   const auto names = class_names();
@@ -152,7 +176,7 @@ void write_classes(const std::filesystem::path& file, const FileComparison& comp
                      .viewpoint = {}});
 }
 
-void write_removed(const std::filesystem::path& file, const FileComparison& comparison) {
+void write_removed(const fs::path& file, const FileComparison& comparison) {
   std::vector<PriorPoint> removed;
   std::ranges::copy_if(comparison.result.prior_points, std::back_inserter(removed),
                        [](const PriorPoint& point) { return point.point_class == PointClass::removed; });

@@ -2,15 +2,16 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "server/file_comparison.hpp"
-#include "storage/formats/write.hpp"
 
 namespace raywatch {
 
-/// The format that a file's ending asks for.
-/// @throws InvalidInput unless it is .csv, .pcd or .ply.
-PointFormat output_format(const std::filesystem::path& file);
+/// Checks where results are to be written, before anything is read; an empty path is none.
+/// @throws InvalidInput for an ending other than .csv, .pcd and .ply, a file that is one of the scans, however it is
+///   spelled, or one that is given twice.
+void check_outputs(const FileComparisonRequest& request, const std::vector<std::filesystem::path>& outputs);
 
 /// A row for every point of the scan, in its order: x, y, z (world), class, free, supported, cluster.
 /// @throws StorageError when the file cannot be written.

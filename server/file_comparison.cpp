@@ -13,22 +13,32 @@
 #include "core/prior_index.hpp"
 #include "core/sensor.hpp"
 #include "server/stopwatch.hpp"
+#include "storage/formats/naming_file.hpp"
 #include "storage/formats/scan_file.hpp"
 #include "storage/formats/side_car.hpp"
 
 namespace raywatch {
 namespace {
 
+/// A file that cannot be read is wrong input, as one that is broken.
+std::vector<DecodedScan> read_scans(const std::filesystem::path& file) {
+  try {
+    const ScanHints hints = read_side_car(file);
+    return naming(file, [&] { return read_scan_file(file, hints); });
+  } catch (const StorageError& error) {
+    throw InvalidInput(error.what());
+  }
+}
+
 FileScan read_one_scan(const std::filesystem::path& file) {
-  std::vector<DecodedScan> scans = read_scan_file(file, read_side_car(file));
+  std::vector<DecodedScan> scans = read_scans(file);
   if (scans.size() != 1) {
     throw InvalidInput(file.string() + ": holds " + std::to_string(scans.size()) + " scans; one is needed");
   }
   DecodedScan& scan = scans.front();
   if (!scan.world_from_sensor) {
     throw InvalidInput(file.string() + ": nothing says from where it was taken. Write the pose into " + file.string() +
-                       R"(.json: {"pose": {"position_m": [x, y, z], "orientation_xyzw": [x, y, z, w]}})" +
-                       " (an identity VIEWPOINT counts as absent)");
+                       ".json: " + kPoseInSideCar + " (an identity VIEWPOINT counts as absent)");
   }
   return {std::move(scan.points), *scan.world_from_sensor, scan.captured_at};
 }

@@ -50,7 +50,8 @@ struct FileComparison {
 /// Compares scan files without a store, through the same steps as the daemon. Runs in the caller's oneTBB arena.
 ///
 /// A prior without a time is earlier than the scan; a scan without a time is later than its priors.
-/// @throws InvalidInput when a file is broken, holds several scans, or nothing says from where it was taken.
+/// @throws InvalidInput when a file cannot be read, is broken, holds several scans, or nothing says from where it was
+///   taken; UnsupportedFormat, TooLarge. The message names the file.
 FileComparison compare_files(const FileComparisonRequest& request);
 
 }  // namespace raywatch

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/field_errors.hpp"
 #include "core/error.hpp"
 #include "core/index_scan.hpp"
 #include "core/panorama.hpp"
@@ -13,6 +14,7 @@
 #include "server/unowned_payloads.hpp"
 #include "storage/comparisons.hpp"
 #include "storage/events.hpp"
+#include "storage/formats/side_car.hpp"
 #include "storage/payloads.hpp"
 #include "storage/sensors.hpp"
 #include "storage/sites.hpp"
@@ -41,13 +43,21 @@ SensorAndSite find_sensor_and_site(const Snapshot& snapshot, const std::string& 
   return {std::move(*sensor), std::move(*site)};
 }
 
+/// The words suit whoever uploads and whoever puts files into a folder.
 void check_complete(const DecodedScan& scan, Time latest_allowed) {
-  std::vector<FieldError> missing;
+  FieldErrors missing;
   if (!scan.world_from_sensor) {
-    missing.push_back({"pose", "neither the query, the file nor the sensor says from where the scan was taken"});
+    missing.add("pose", std::string("nothing says from where the scan was taken (an identity VIEWPOINT counts as "
+                                    "absent). Write it into FILE.json beside the file: ") +
+                            kPoseInSideCar +
+                            ", or give pose=x,y,z,qx,qy,qz,qw with an upload, or a fixed pose to the sensor");
   }
-  if (!scan.captured_at) missing.push_back({"captured_at", "neither the query nor the file says when it was taken"});
-  if (!missing.empty()) throw InvalidInput("The scan is incomplete: " + missing.front().message + ".", missing);
+  if (!scan.captured_at) {
+    missing.add("captured_at", std::string("nothing says when the scan was taken. Write it into FILE.json beside the "
+                                           "file: ") +
+                                   kTimeInSideCar + ", or give captured_at=... with an upload");
+  }
+  missing.throw_if_any();
   if (*scan.captured_at > latest_allowed) {
     const std::string message = format_rfc3339(*scan.captured_at) + " lies in the future";
     throw InvalidInput("The capture time " + message + ".", {{"captured_at", message}});

@@ -10,8 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "core/error.hpp"
-
 namespace raywatch {
 namespace {
 
@@ -58,8 +56,16 @@ struct ServerClient::Impl {
   }
 
   ServerReply reply_of(const httplib::Result& result) const {
-    if (!result) throw Error(url + ": " + httplib::to_string(result.error()));
+    if (!result) fail(result.error());
     return {result->status, result->body, retry_after_of(*result)};
+  }
+
+  [[noreturn]] void fail(httplib::Error error) const {
+    const std::string question = "; is the daemon running there? --server names another address";
+    if (error == httplib::Error::Connection || error == httplib::Error::ConnectionTimeout) {
+      throw Unreachable(url + ": cannot connect" + question);
+    }
+    throw Error(url + ": the connection broke off before the answer (" + httplib::to_string(error) + ")" + question);
   }
 
   std::string url;

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace raywatch {
 
 /// What a daemon answered.
@@ -21,6 +23,12 @@ struct ServerReply {
   std::string problem() const;
 };
 
+/// Nobody answers at the address.
+class Unreachable : public Error {
+ public:
+  using Error::Error;
+};
+
 /// Talks to a running daemon. Not thread-safe.
 class ServerClient {
  public:
@@ -30,7 +38,7 @@ class ServerClient {
 
   using Query = std::vector<std::pair<std::string, std::string>>;
 
-  /// @{ @throws Error when the daemon cannot be reached or breaks off. Any status is a reply.
+  /// @{ @throws Unreachable when there is no connection, another Error when it breaks off. Any status is a reply.
   ServerReply get(const std::string& path);
   ServerReply post_json(const std::string& path, const std::string& json);
   /// Streams the file; memory does not grow with its size.

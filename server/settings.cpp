@@ -3,6 +3,7 @@
 #include <array>
 
 #include "config/config_reader.hpp"
+#include "server/settings_check.hpp"
 
 namespace raywatch {
 namespace {
@@ -117,18 +118,43 @@ void bind_all(ConfigReader& reader, Settings& settings) {
   bind_log(reader, settings.log);
 }
 
-Settings read_all(ConfigReader reader) {
+void apply(const SettingsGiven& given, Settings& settings) {
+  DaemonConfig& daemon = settings.daemon;
+  daemon.data_dir = given.data_dir.value_or(daemon.data_dir.string());
+  daemon.http.host = given.host.value_or(daemon.http.host);
+  daemon.http.port = given.port.value_or(daemon.http.port);
+  daemon.http.allow_remote = daemon.http.allow_remote || given.allow_remote;
+  settings.log.format = given.log_format.value_or(settings.log.format);
+  settings.log.level = given.log_level.value_or(settings.log.level);
+}
+
+/// Where the value of a key comes from: an option, else the file.
+std::string place_of(const std::string& key, const SettingsGiven& given) {
+  if (key == "http.host" && given.host) return "--listen";
+  if (key == "storage.data_dir" && given.data_dir) return "--data-dir";
+  return key;
+}
+
+Settings read_all(ConfigReader reader, const SettingsGiven& given) {
   Settings settings;
   bind_all(reader, settings);
+  apply(given, settings);
+  for (const FieldError& wrong : complaints_about(settings.daemon)) {
+    reader.refuse(place_of(wrong.field, given), wrong.message);
+  }
   reader.finish();
   return settings;
 }
 
 }  // namespace
 
-Settings read_settings(const std::filesystem::path& file) { return read_all(ConfigReader::open(file)); }
+Settings read_settings(const std::filesystem::path& file, const SettingsGiven& given) {
+  return read_all(ConfigReader::open(file), given);
+}
 
-Settings parse_settings(std::string_view toml, const std::string& name) { return read_all(ConfigReader(toml, name)); }
+Settings parse_settings(std::string_view toml, const std::string& name, const SettingsGiven& given) {
+  return read_all(ConfigReader(toml, name), given);
+}
 
 SettingsReport compare_with_defaults(std::string_view toml, const std::string& name) {
   ConfigReader reader(toml, name);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,12 +18,20 @@ struct Settings {
   LogConfig log;
 };
 
-/// Reads a configuration file. What it does not name keeps its default.
-/// @throws InvalidInput with every error of the file: key, line, and what would be right.
-Settings read_settings(const std::filesystem::path& file);
+/// What the command line says; it wins over the file.
+struct SettingsGiven {
+  std::optional<std::string> data_dir, host, log_format, log_level;
+  std::optional<std::uint16_t> port;
+  bool allow_remote = false;
+};
+
+/// Reads a configuration file and checks all that `serve` needs to start: also what only shows beside other settings or
+/// on this machine's disk. What nobody names keeps its default.
+/// @throws InvalidInput with every error: key, line, and what would be right.
+Settings read_settings(const std::filesystem::path& file, const SettingsGiven& given = {});
 
 /// The same from text; `name` stands in messages.
-Settings parse_settings(std::string_view toml, const std::string& name);
+Settings parse_settings(std::string_view toml, const std::string& name, const SettingsGiven& given = {});
 
 /// How a configuration file stands to the defaults.
 struct SettingsReport {

@@ -44,12 +44,14 @@ std::string pose_text(const Pose& pose) {
   return text.str();
 }
 
-ServerClient::Query query_of(const ScanHints& hints, const std::string& sensor, const UploadOptions& options) {
+/// What goes with a file. The format as well: the server does not hear of the file's name.
+ServerClient::Query query_of(const fs::path& file, const ScanHints& hints, const std::string& sensor,
+                             const UploadOptions& options) {
   ServerClient::Query query = {{"sensor", sensor}};
   if (hints.captured_at) query.emplace_back("captured_at", format_rfc3339(*hints.captured_at));
   if (hints.pose) query.emplace_back("pose", pose_text(*hints.pose));
   if (hints.frame) query.emplace_back("frame", *hints.frame == Frame::world ? "world" : "sensor");
-  if (options.format) query.emplace_back("format", *options.format);
+  query.emplace_back("format", options.format ? *options.format : std::string(to_string(scan_format_of(file))));
   return query;
 }
 
@@ -62,8 +64,10 @@ void create(ServerClient& server, const std::string& path, const Json& what) {
 /// Sees to it that uploads of `sensor` can be accepted.
 void prepare_sensor(ServerClient& server, const std::string& sensor, const UploadOptions& options) {
   const ServerReply found = server.get("/api/v1/sensors/" + path_segment(sensor));
+  const Json answer = Json::parse(found.body, nullptr, false);
+  if (!answer.is_object()) throw Error("what answers is no raywatch daemon; --server names another address");
   if (found.ok()) {
-    const std::string site = Json::parse(found.body).value("site", "");
+    const std::string site = answer.value("site", "");
     if (options.site && site != *options.site) {
       throw Error("sensor \"" + sensor + "\" belongs to the site \"" + site + "\", not to \"" + *options.site + "\"");
     }
@@ -101,15 +105,35 @@ ServerReply send_patiently(ServerClient& server, const fs::path& file, const Ser
 }
 
 /// The ids in the answer to an upload: one scan, or a list of them.
-std::string scan_ids(const std::string& body) {
-  const Json json = Json::parse(body, nullptr, false);
-  if (!json.is_object()) return "";
-  if (json.contains("id")) return "scan " + json["id"].dump();
-  std::string ids;
-  for (const Json& scan : json.value("items", Json::array())) {
-    ids += (ids.empty() ? "scans " : ", ") + scan.value("id", Json()).dump();
-  }
+std::vector<std::int64_t> scan_ids(const std::string& body) {
+  const Json json = Json::parse(body);
+  if (json.contains("id")) return {json["id"].get<std::int64_t>()};
+  std::vector<std::int64_t> ids;
+  for (const Json& scan : json.at("items")) ids.push_back(scan.at("id").get<std::int64_t>());
   return ids;
+}
+
+std::string shown(const std::vector<std::int64_t>& ids) {
+  std::string text = ids.size() == 1 ? "scan " : "scans ";
+  for (std::size_t i = 0; i < ids.size(); ++i) text += (i == 0 ? "" : ", ") + std::to_string(ids[i]);
+  return text;
+}
+
+/// Sees to it that somebody answers; a daemon that was just started needs a moment.
+void meet_daemon(ServerClient& server, const UploadOptions& options, const UploadReport& report) {
+  constexpr std::chrono::seconds kFirstContact{10};
+  const auto patience = std::min(options.patience, kFirstContact);
+  const auto give_up = std::chrono::steady_clock::now() + patience;
+  for (bool is_first = true;; is_first = false) {
+    try {
+      server.get("/healthz");
+      return;
+    } catch (const Unreachable& error) {
+      if (std::chrono::steady_clock::now() >= give_up) throw;
+      if (is_first) report(error.what() + ("; waiting for up to " + std::to_string(patience.count()) + " s"));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
 }
 
 class Uploader {
@@ -124,11 +148,14 @@ class Uploader {
       const ScanHints hints = read_side_car(file);
       const std::string sensor = sensor_of(file, hints);
       prepare(sensor);
-      const ServerReply reply = send_patiently(server_, file, query_of(hints, sensor, options_), options_, report_);
+      const ServerReply reply =
+          send_patiently(server_, file, query_of(file, hints, sensor, options_), options_, report_);
       if (!reply.ok()) throw Error(reply.problem());
       const bool is_new = reply.status == 201;
       ++(is_new ? summary_.stored : summary_.already_there);
-      report_(place + file.string() + (is_new ? ": stored as " : ": already there, ") + scan_ids(reply.body));
+      const std::vector<std::int64_t> ids = scan_ids(reply.body);
+      for (const std::int64_t id : ids) summary_.scans.push_back({file, id});
+      report_(place + file.string() + (is_new ? ": stored as " : ": already there, ") + shown(ids));
     } catch (const std::exception& error) {
       ++summary_.failed;
       report_(place + file.string() + ": failed: " + error.what());
@@ -179,6 +206,7 @@ std::vector<fs::path> find_scan_files(const std::vector<fs::path>& paths) {
 
 UploadSummary upload_files(ServerClient& server, const std::vector<fs::path>& files, const UploadOptions& options,
                            const UploadReport& report) {
+  meet_daemon(server, options, report);
   Uploader uploader(server, options, report);
   for (std::size_t i = 0; i < files.size(); ++i) {
     uploader.upload(files[i], "[" + std::to_string(i + 1) + "/" + std::to_string(files.size()) + "] ");

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -23,8 +24,15 @@ struct UploadOptions {
   std::chrono::seconds patience{300};  ///< how long one file is tried again while the server is busy or away
 };
 
+/// A scan of a file that is on the server.
+struct UploadedScan {
+  std::filesystem::path file;
+  std::int64_t id = 0;
+};
+
 struct UploadSummary {
   std::size_t stored = 0, already_there = 0, failed = 0;
+  std::vector<UploadedScan> scans;  ///< of the files that did not fail
 };
 
 /// Called with a line a file.
@@ -36,8 +44,9 @@ using UploadReport = std::function<void(const std::string& line)>;
 /// @throws InvalidInput when a path is not there, or a directory holds no scan file.
 std::vector<std::filesystem::path> find_scan_files(const std::vector<std::filesystem::path>& paths);
 
-/// Uploads files one after the other. A file that fails does not stop the others; safe to repeat.
-/// @throws Error when the server cannot be reached at all or refuses the sensor.
+/// Uploads files one after the other. A file that fails does not stop the others; safe to repeat. A server that does
+/// not answer yet is waited for, for a few seconds.
+/// @throws Error when the server cannot be reached at all, is no daemon, or refuses the sensor.
 UploadSummary upload_files(ServerClient& server, const std::vector<std::filesystem::path>& files,
                            const UploadOptions& options, const UploadReport& report);
 

@@ -1,14 +1,29 @@
 #include "storage/backup.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "storage/data_dir.hpp"
 
 namespace raywatch {
 namespace {
 
-void require_usable(const std::filesystem::path& directory) {
+/// Links and detours on the way are followed.
+bool is_within(const std::filesystem::path& inner, const std::filesystem::path& outer) {
+  const auto real = [](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  };
+  const std::filesystem::path in = real(inner), out = real(outer);
+  return std::ranges::mismatch(out, in).in1 == out.end();
+}
+
+void require_usable(const std::filesystem::path& directory, const std::filesystem::path& data_dir) {
   if (directory.empty())
     throw InvalidInput("no directory for the backup is given", {{"directory", "must not be empty"}});
+  if (is_within(directory, data_dir)) {
+    throw InvalidInput("the backup must not lie in the data directory " + data_dir.string(),
+                       {{"directory", "must not lie in the data directory"}});
+  }
   if (!std::filesystem::exists(directory)) return;
   if (!std::filesystem::is_directory(directory) || !std::filesystem::is_empty(directory)) {
     throw InvalidInput("the backup needs a directory of its own: " + directory.string() + " exists and is not empty",
@@ -61,7 +76,7 @@ void remove_content(const std::filesystem::path& directory) noexcept {
 
 void copy_store(Database& metadata, PayloadFiles& files, const std::filesystem::path& directory,
                 std::uint64_t min_free_bytes) {
-  require_usable(directory);
+  require_usable(directory, files.data_dir());
   const std::filesystem::path target = std::filesystem::absolute(directory).lexically_normal();
   make_directories_durably(target);
   require_room(target, {.bytes = bytes_to_copy(metadata, files), .reserve_bytes = min_free_bytes});

@@ -11,7 +11,8 @@ namespace raywatch {
 /// all that the metadata refers to because payloads are committed first and the caller keeps them from being deleted.
 /// What the copies have beyond that is swept when the copy is opened. The metadata gets its name last, so that an
 /// unfinished copy is no store.
-/// @throws InvalidInput when `directory` exists and is not an empty directory; StorageError; DiskFull.
+/// @throws InvalidInput when `directory` lies in the data directory, or exists and is not an empty directory;
+///   StorageError; DiskFull.
 void copy_store(Database& metadata, PayloadFiles& files, const std::filesystem::path& directory,
                 std::uint64_t min_free_bytes);
 

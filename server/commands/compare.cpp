@@ -11,6 +11,7 @@
 
 #include "core/profile.hpp"
 #include "server/commands/commands.hpp"
+#include "server/commands/number_options.hpp"
 #include "server/comparison_output.hpp"
 #include "server/file_comparison.hpp"
 #include "server/stopwatch.hpp"
@@ -32,6 +33,14 @@ Examples:
   raywatch compare new.pcd --against old.pcd --grouping union --angle-deg 0.5 --range-m 0.1 --removed-output gone.csv
 
 Exit codes: 0 done, 1 failed (a file cannot be written), 2 wrong arguments or input files.)";
+
+constexpr RealBounds kAngle_deg{.min = 0.0, .max = 90.0, .exclusive_min = true};
+constexpr RealBounds kThreshold_m{.min = 0.0, .max = 1e6};
+constexpr RealBounds kDistance_m{.min = 0.0, .max = 1e6, .exclusive_min = true};
+constexpr RealBounds kRange_m{.min = 0.0, .max = 1e9};
+constexpr RealBounds kContemporary_s{.min = 0.0, .max = 1e9};
+constexpr IntegerBounds kMinPoints{.min = 0, .max = 1'000'000'000};
+constexpr IntegerBounds kThreads{.min = 0, .max = 1024};
 
 /// The command line as it was given; what is not given follows the profile and the grouping.
 struct Options {
@@ -67,12 +76,10 @@ CompareParameters parameters_of(const Options& options) {
 
 int compare_and_report(const Options& options) {
   Stopwatch total;
-  for (const std::string& file : {options.output, options.removed_output}) {
-    if (!file.empty()) output_format(file);
-  }
   const FileComparisonRequest request{.scan = options.scan,
                                       .priors = {options.priors.begin(), options.priors.end()},
                                       .parameters = parameters_of(options)};
+  check_outputs(request, {options.output, options.removed_output});
   const FileComparison comparison = compare_files(request);
   Stopwatch write;
   if (!options.output.empty()) write_classes(options.output, comparison);
@@ -109,40 +116,38 @@ void add_compare(CLI::App& program, Run& run) {
       ->check(CLI::IsMember({"indoor", "outdoor", "survey"}))
       ->capture_default_str();
   command->add_option("--angle-deg", options->angle_deg, "Half-angle of the cone of prior returns asked about a point")
-      ->check(CLI::Range(1e-6, 90.0));
+      ->check(within(kAngle_deg));
   command->add_option("--range-m", options->range_m, "Range difference below which two returns agree")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(within(kThreshold_m));
   command
       ->add_option("--support-distance-m", options->support_distance_m,
                    "In a consensus, how rough surfaces are; 0: answers are not weighed")
-      ->check(CLI::Range(0.0, 1e3));
+      ->check(within(kThreshold_m));
   command
       ->add_option("--growth-distance-m", options->growth_distance_m,
                    "In a consensus, how far a change grows over points that no prior supports")
-      ->check(CLI::Range(0.0, 1e3));
+      ->check(within(kThreshold_m));
   command
       ->add_option("--foliage-distance-m", options->foliage_distance_m,
                    "In a consensus, how far around a change a prior must not look like foliage; 0: not asked")
-      ->check(CLI::Range(0.0, 1e3));
+      ->check(within(kThreshold_m));
   command
       ->add_option("--cluster-distance-m", options->cluster_distance_m,
                    "Changed points nearer than this are one change")
-      ->check(CLI::Range(1e-6, 1e6));
-  command->add_option("--cluster-min-points", options->cluster_min_points,
-                      "Changes of at most so many points are noise");
+      ->check(within(kDistance_m));
+  command
+      ->add_option("--cluster-min-points", options->cluster_min_points, "Changes of at most so many points are noise")
+      ->check(within(kMinPoints));
   command->add_flag("--no-cluster", options->no_cluster, "Report every changed point");
   command->add_flag("--no-align", options->no_align,
                     "Take all poses as given; else a consensus fits each prior to NEW");
-  command->add_option("--min-range-m", options->min_range_m, "Nearer returns are ignored")->check(CLI::Range(0.0, 1e9));
-  command->add_option("--max-range-m", options->max_range_m, "Farther returns are ignored")
-      ->check(CLI::Range(0.0, 1e9));
+  command->add_option("--min-range-m", options->min_range_m, "Nearer returns are ignored")->check(within(kRange_m));
+  command->add_option("--max-range-m", options->max_range_m, "Farther returns are ignored")->check(within(kRange_m));
   command
       ->add_option("--contemporary-s", options->contemporary_s, "Scans no farther apart in time show the same moment")
-      ->check(CLI::Range(0.0, 1e9))
+      ->check(within(kContemporary_s))
       ->capture_default_str();
-  command->add_option("--threads", options->threads, "0: one a core")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  command->add_option("--threads", options->threads, "0: one a core")->check(within(kThreads))->capture_default_str();
   command->add_option("--output", options->output, "Every point of NEW with its class (.csv, .pcd or .ply)")
       ->type_name("FILE");
   command

@@ -2,21 +2,29 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "server/change_summary.hpp"
 #include "server/commands/commands.hpp"
+#include "server/commands/number_options.hpp"
 #include "server/upload_files.hpp"
 
 namespace raywatch {
 namespace {
 
 constexpr const char* kFooter = R"(
-What a file does not say itself (capture time, pose, frame, sensor) is taken from FILE.json beside it.
+What a file does not say itself (capture time, pose, frame, sensor) is taken from FILE.json beside it:
+  {"captured_at": "2026-03-01T02:10:00Z", "frame": "sensor",
+   "pose": {"position_m": [0, 0, 1.5], "orientation_xyzw": [0, 0, 0, 1]}}
+A capture time and a pose are needed for every file; the pose may also be the sensor's own.
 Files are sent in the order of their capture times. Repeating is safe: what is already there stays as it is.
-While the server is busy, or away for a moment, a file is tried again.
+A server that does not answer at first is waited for, 10 seconds at most. While it is busy, or away for a moment, a
+file is tried again. With --wait what changed is printed, a line a scan; the exit code does not depend on that.
 
 Examples:
+  raywatch ingest lastnight.pcd tonight.pcd --sensor gate-1 --site yard --create --wait 60
   raywatch ingest scans/ --server http://127.0.0.1:8420 --sensor gate-1 --site yard --create
   raywatch ingest tonight.pcd --sensor gate-1
 
@@ -27,6 +35,7 @@ struct Options {
   std::string server = "http://127.0.0.1:8420";
   UploadOptions upload;
   int patience_s = 300;
+  std::optional<int> wait_s;
 };
 
 int run_ingest(const Options& options) {
@@ -37,7 +46,11 @@ int run_ingest(const Options& options) {
   const UploadSummary summary =
       upload_files(server, files, upload, [](const std::string& line) { std::cerr << line << std::endl; });
   std::cout << summary.stored << " stored, " << summary.already_there << " already there, " << summary.failed
-            << " failed\n";
+            << " failed" << std::endl;
+  if (options.wait_s) {
+    report_changes(server, summary.scans, std::chrono::seconds(*options.wait_s),
+                   [](const std::string& line) { std::cout << line << std::endl; });
+  }
   return summary.failed == 0 ? kExitDone : kExitFailed;
 }
 
@@ -58,8 +71,13 @@ void add_ingest(CLI::App& program, Run& run) {
   command->add_option("--format", options->upload.format,
                       "pcd, ply, las, ptx, text or kitti; else decided from the file");
   command->add_option("--patience-s", options->patience_s, "How long one file is tried again while the server is busy")
-      ->check(CLI::Range(0, 86'400))
+      ->check(within(IntegerBounds{.min = 0, .max = 86'400}))
       ->capture_default_str();
+  command
+      ->add_option("--wait", options->wait_s,
+                   "Wait so many seconds for the comparisons of these scans, and say what changed")
+      ->check(within(IntegerBounds{.min = 0, .max = 86'400}))
+      ->type_name("SECONDS");
   command->callback([&run, options] { run = [options] { return run_ingest(*options); }; });
 }
 

@@ -32,20 +32,22 @@ Exit codes: 0 stopped by a signal, 1 could not start or go on, 2 wrong arguments
 
 struct Options {
   std::string config;
-  std::optional<std::string> data_dir, listen, log_format, log_level;
-  bool allow_remote = false;
+  std::optional<std::string> listen;
+  SettingsGiven given;
 };
 
 /// "127.0.0.1:8420", "[::1]:8420", "localhost:0".
-void set_address(const std::string& listen, HttpConfig& http) {
+void set_address(const std::string& listen, SettingsGiven& given) {
   const std::size_t colon = listen.rfind(':');
   const std::string port = colon == std::string::npos ? "" : listen.substr(colon + 1);
-  const auto read = std::from_chars(port.data(), port.data() + port.size(), http.port);
+  std::uint16_t number = 0;
+  const auto read = std::from_chars(port.data(), port.data() + port.size(), number);
   if (port.empty() || colon == 0 || read.ec != std::errc{} || read.ptr != port.data() + port.size()) {
     throw InvalidInput("--listen " + listen + ": must be HOST:PORT, such as 127.0.0.1:8420");
   }
-  http.host = listen.substr(0, colon);
-  if (http.host.starts_with('[') && http.host.ends_with(']')) http.host = http.host.substr(1, http.host.size() - 2);
+  const std::string host = listen.substr(0, colon);
+  given.host = host.starts_with('[') && host.ends_with(']') ? host.substr(1, host.size() - 2) : host;
+  given.port = number;
 }
 
 /// The dashboard that lies beside the program, as it is built or installed; empty when there is none.
@@ -58,12 +60,10 @@ std::filesystem::path dashboard_beside_program() {
 }
 
 Settings settings_of(const Options& options) {
-  Settings settings = options.config.empty() ? Settings{} : read_settings(options.config);
-  if (options.data_dir) settings.daemon.data_dir = *options.data_dir;
-  if (options.listen) set_address(*options.listen, settings.daemon.http);
-  if (options.allow_remote) settings.daemon.http.allow_remote = true;
-  if (options.log_format) settings.log.format = *options.log_format;
-  if (options.log_level) settings.log.level = *options.log_level;
+  SettingsGiven given = options.given;
+  if (options.listen) set_address(*options.listen, given);
+  Settings settings =
+      options.config.empty() ? parse_settings("", "options", given) : read_settings(options.config, given);
   if (settings.daemon.http.dashboard_dir.empty()) settings.daemon.http.dashboard_dir = dashboard_beside_program();
   return settings;
 }
@@ -114,14 +114,15 @@ void add_serve(CLI::App& program, Run& run) {
   command->footer(kFooter);
   command->add_option("--config", options->config, "Settings; see config/raywatch.toml for all of them")
       ->type_name("FILE");
-  command->add_option("--data-dir", options->data_dir, "Where everything is kept (default: raywatch-data)")
+  command->add_option("--data-dir", options->given.data_dir, "Where everything is kept (default: raywatch-data)")
       ->type_name("DIR");
   command->add_option("--listen", options->listen, "Where to listen (default: 127.0.0.1:8420); port 0: any free one")
       ->type_name("HOST:PORT");
-  command->add_flag("--allow-remote", options->allow_remote, "Listen on an address that other machines can reach");
-  command->add_option("--log-format", options->log_format, "human (default) or json")
+  command->add_flag("--allow-remote", options->given.allow_remote,
+                    "Listen on an address that other machines can reach");
+  command->add_option("--log-format", options->given.log_format, "human (default) or json")
       ->check(CLI::IsMember({"human", "json"}));
-  command->add_option("--log-level", options->log_level, "trace, debug, info (default), warning, error or off")
+  command->add_option("--log-level", options->given.log_level, "trace, debug, info (default), warning, error or off")
       ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "off"}));
   command->callback([&run, options] { run = [options] { return run_serve(*options); }; });
 }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <string_view>
 
+#include "api/text_values.hpp"
 #include "core/error.hpp"
 
 namespace raywatch {
@@ -23,6 +25,9 @@ struct FreeMulti {
 };
 struct FreeList {
   void operator()(curl_slist* list) const { curl_slist_free_all(list); }
+};
+struct FreeUrl {
+  void operator()(CURLU* url) const { curl_url_cleanup(url); }
 };
 using List = std::unique_ptr<curl_slist, FreeList>;
 
@@ -148,6 +153,17 @@ TransferEnd Transfer::run(const std::stop_token& stop) {
   end.interrupted = code == CURLE_ABORTED_BY_CALLBACK;
   if (!end.complete) end.error = impl_->error[0] != '\0' ? impl_->error.data() : curl_easy_strerror(code);
   return end;
+}
+
+// Read as libcurl does when it uses one.
+bool is_proxy(const std::string& text) {
+  const std::unique_ptr<CURLU, FreeUrl> url(curl_url());
+  constexpr unsigned kFlags = CURLU_NON_SUPPORT_SCHEME | CURLU_GUESS_SCHEME;
+  if (!url || curl_url_set(url.get(), CURLUPART_URL, text.c_str(), kFlags) != CURLUE_OK) return false;
+  constexpr std::array<std::string_view, 7> kSchemes = {"http",    "https",  "socks",  "socks4",
+                                                        "socks4a", "socks5", "socks5h"};
+  const std::size_t scheme = text.find("://");
+  return scheme == std::string::npos || std::ranges::find(kSchemes, lower(text.substr(0, scheme))) != kSchemes.end();
 }
 
 TransferLibrary::TransferLibrary() {

@@ -47,6 +47,9 @@ class Transfer {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Whether libcurl takes the text for the address of a proxy.
+bool is_proxy(const std::string& text);
+
 /// What libcurl needs once, before the first thread that uses it.
 class TransferLibrary {
  public:

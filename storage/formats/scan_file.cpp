@@ -72,7 +72,7 @@ Frame parse_frame(std::string_view name) {
   if (name == "sensor") return Frame::sensor;
   if (name == "world") return Frame::world;
   const std::string message = shown(name) + " is no frame; it is sensor or world";
-  throw InvalidInput("frame: " + message, {{"frame", message}});
+  throw InvalidInput(message, {{"frame", message}});
 }
 
 }  // namespace raywatch

@@ -56,6 +56,10 @@ struct DecodedScan {
 std::vector<DecodedScan> read_scan_file(const std::filesystem::path& path, const ScanHints& hints = {},
                                         const ScanFileLimits& limits = {});
 
+/// The format of a file: what its content shows, else its ending.
+/// @throws UnsupportedFormat naming the known ones when neither tells; StorageError when it cannot be read.
+ScanFormat scan_format_of(const std::filesystem::path& file);
+
 /// "pcd", "ply", "las", "ptx", "text", "kitti"; also accepts the usual endings ("xyz", "csv", "txt", "asc", "bin").
 /// @throws UnsupportedFormat naming the known ones.
 ScanFormat parse_scan_format(std::string_view name);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <optional>
 
 #include "core/error.hpp"
@@ -23,6 +24,9 @@ constexpr std::array kNames = {
 
 constexpr std::string_view kKnown =
     "known are pcd, ply, las (uncompressed), ptx, text (xyz, csv, txt, asc) and kitti (bin)";
+
+/// Whatever shows the format stands in so many bytes.
+constexpr std::size_t kBeginning = 4096;
 
 std::optional<ScanFormat> format_named(std::string_view name) {
   const std::string lower = lower_case(name);
@@ -49,8 +53,10 @@ bool looks_like_pcd(std::string_view text) {
   return false;
 }
 
+/// Also "nan" and "inf", and what only looks like a number: the reader says what is wrong with it.
 bool is_number(std::string_view word) {
-  return !word.empty() && word.find_first_not_of("0123456789+-.eE") == std::string_view::npos;
+  return !word.empty() &&
+         (word.find_first_not_of("0123456789+-.eE") == std::string_view::npos || try_parse_real(word).has_value());
 }
 
 /// Two lines of one whole number, four of three numbers, four of four.
@@ -98,15 +104,24 @@ std::optional<ScanFormat> format_of_content(std::string_view text) {
 }  // namespace
 
 ScanFormat detect_scan_format(std::span<const std::byte> bytes, std::string_view name) {
-  // Whatever shows the format stands at the beginning.
-  constexpr std::size_t kBeginning = 4096;
   const std::string_view beginning = as_text(bytes.first(std::min(bytes.size(), kBeginning)));
   if (const auto format = format_of_content(beginning)) return *format;
   if (lower_case(ending_of(name)) == "laz") {
     throw UnsupportedFormat("compressed LAS (LAZ) is not read; please decompress it to LAS first");
   }
   if (const auto format = format_named(ending_of(name))) return *format;
-  throw UnsupportedFormat("neither the content nor the name of the file shows a format; " + std::string(kKnown));
+  throw UnsupportedFormat("neither the content nor the ending of a name shows a format; " + std::string(kKnown) +
+                          ". KITTI shows only in the ending: for a file with another one, or an upload, give "
+                          "format=kitti");
+}
+
+ScanFormat scan_format_of(const std::filesystem::path& file) {
+  std::array<char, kBeginning> beginning;
+  std::ifstream in(file, std::ios::binary);
+  in.read(beginning.data(), beginning.size());
+  if (in.bad() || (in.fail() && !in.eof())) throw StorageError(file.string() + ": cannot be read");
+  const std::span read(beginning.data(), static_cast<std::size_t>(in.gcount()));
+  return detect_scan_format(std::as_bytes(read), file.filename().string());
 }
 
 ScanFormat parse_scan_format(std::string_view name) {

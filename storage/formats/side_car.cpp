@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
 #include "storage/formats/file_bytes.hpp"
+#include "storage/formats/naming_file.hpp"
 #include "storage/formats/placement.hpp"
 #include "storage/formats/text_lines.hpp"
 
@@ -79,11 +80,11 @@ Json parse_json(std::string_view text, std::string_view file) {
   }
 }
 
-/// Runs `parse` and names the place when it refuses.
+/// What `parse` makes of the text; names the place when it refuses.
 template <class Parse>
-auto parsed(const Place& place, Parse&& parse) {
+auto parsed(const Place& place, Parse parse, const std::string& text) {
   try {
-    return parse();
+    return parse(text);
   } catch (const InvalidInput& error) {
     place.refuse(error.what());
   }
@@ -128,11 +129,11 @@ ScanHints parse_side_car(std::string_view json, std::string_view name) {
     const Place place{name, item.key()};
     const Json& value = item.value();
     if (place.member == "captured_at") {
-      hints.captured_at = parsed(place, [&] { return parse_rfc3339(text_of(value, place)); });
+      hints.captured_at = parsed(place, parse_rfc3339, text_of(value, place));
     } else if (place.member == "sensor") {
       hints.sensor = text_of(value, place);
     } else if (place.member == "frame") {
-      hints.frame = parsed(place, [&] { return parse_frame(text_of(value, place)); });
+      hints.frame = parsed(place, parse_frame, text_of(value, place));
     } else {
       hints.pose = pose_of(value, name);
     }
@@ -144,9 +145,9 @@ ScanHints read_side_car(const std::filesystem::path& scan_file) {
   const std::filesystem::path path = side_car_path(scan_file);
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return {};
-  const FileBytes file(path, kMaxSideCarBytes);
+  const FileBytes file = naming(path, [&] { return FileBytes(path, kMaxSideCarBytes); });
   const std::string_view text{reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
-  return parse_side_car(text, path.filename().string());
+  return parse_side_car(text, path.string());
 }
 
 void write_side_car(const std::filesystem::path& scan_file, const ScanHints& hints) {
@@ -172,9 +173,7 @@ Pose parse_pose_text(std::string_view text, const char* field) {
   std::vector<std::string_view> cells;
   split_cells(text, ',', cells);
   std::array<double, 7> v{};
-  const auto refuse = [&](const std::string& message) {
-    throw InvalidInput(std::string(field) + ": " + message, {{field, message}});
-  };
+  const auto refuse = [&](const std::string& message) { throw InvalidInput(message, {{field, message}}); };
   if (cells.size() != v.size()) {
     refuse("must be seven numbers, x,y,z,qx,qy,qz,qw, but there are " + std::to_string(cells.size()));
   }

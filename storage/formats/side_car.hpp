@@ -9,6 +9,12 @@
 
 namespace raywatch {
 
+/// @{ What to write into a side-car, for messages that miss it.
+inline constexpr const char* kPoseInSideCar =
+    R"({"pose": {"position_m": [x, y, z], "orientation_xyzw": [x, y, z, w]}})";
+inline constexpr const char* kTimeInSideCar = R"({"captured_at": "2026-03-01T02:10:00Z"})";
+/// @}
+
 /// Reads `FILE.json` beside a scan file:
 /// `{"captured_at": "...", "sensor": "...", "frame": "sensor"|"world", "pose": {"position_m": [x,y,z],
 /// "orientation_xyzw": [x,y,z,w]}}`; every member may be absent.

@@ -187,7 +187,7 @@ PointFormat parse_point_format(std::string_view name) {
   const auto* found = std::ranges::find(kFormatNames, name);
   if (found != kFormatNames.end()) return static_cast<PointFormat>(found - kFormatNames.begin());
   const std::string message = shown(name) + " is no format of points; known are pcd, ply, csv, bin and q16";
-  throw InvalidInput("format: " + message, {{"format", message}});
+  throw InvalidInput(message, {{"format", message}});
 }
 
 std::string_view media_type(PointFormat format) {

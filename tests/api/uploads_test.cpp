@@ -155,6 +155,7 @@ TEST_CASE("uploads that are not acceptable are refused by their reason and leave
       {"all points NaN", pcd_of(all_nan, wall_pose()), kQuery, 422, "invalid-input"},
       {"world frame without sensor position", "1 2 3\n4 5 6\n", kQuery + "&format=xyz&frame=world", 422,
        "invalid-input"},
+      {"nothing but NaN", "nan nan nan\nnan nan nan\nnan nan nan\n", kQuery, 422, "invalid-input"},
       {"no pose anywhere", "1 2 3\n4 5 6\n", kQuery + "&format=xyz", 422, "invalid-input"},
       {"no time anywhere", pcd, "sensor=gate", 422, "invalid-input"},
       {"non-unit quaternion", pcd, kQuery + "&pose=1,2,3,0,0,0,2", 422, "invalid-input"},
@@ -187,6 +188,39 @@ TEST_CASE("what is wrong with the query of an upload is said for all of it at on
     CHECK_NE(reply.complaint_about(field), "");
   }
   CHECK_EQ(reply.complaint_about("sensr"), "unknown parameter; did you mean 'sensor'?");
+}
+
+TEST_CASE("each complaint about a query has its parameter's name once") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const Reply reply = api.upload_bytes(wall_pcd(), kQuery + "&pose=a,2,3,0,0,0,1&frame=moon");
+  CHECK_EQ(reply.json()["detail"], "pose: 'a' is not a number; frame: 'moon' is no frame; it is sensor or world");
+  CHECK_EQ(api.get("/api/v1/scans/1/points?format=las").json()["detail"],
+           "format: 'las' is no format of points; known are pcd, ply, csv, bin and q16");
+}
+
+TEST_CASE("bytes without a name that could be KITTI's are asked to say so") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const std::string kitti(16 * 4, '\x01');
+  const Reply reply = api.upload_bytes(kitti, kQuery);
+  CHECK_EQ(reply.status, 415);
+  CHECK_NE(reply.json()["detail"].get<std::string>().find("give format=kitti"), std::string::npos);
+  CHECK_EQ(api.upload_bytes(kitti, kQuery + "&format=kitti&pose=0,0,0,0,0,0,1").status, 201);
+}
+
+TEST_CASE("what is incomplete is said at once, with a remedy for uploads and for files") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const Reply reply = api.upload_bytes("1 2 3\n4 5 6\n7 8 9.5\n", "sensor=gate");
+  REQUIRE_EQ(reply.status, 422);
+  for (const char* field : {"pose", "captured_at"}) {
+    CAPTURE(field);
+    const std::string complaint = reply.complaint_about(field);
+    CHECK_NE(complaint.find("FILE.json"), std::string::npos);
+    CHECK_NE(complaint.find(std::string(field) + "="), std::string::npos);
+    CHECK_NE(reply.json()["detail"].get<std::string>().find(complaint), std::string::npos);
+  }
 }
 
 TEST_CASE("a form that holds a file is not taken for the file, but any other type is") {

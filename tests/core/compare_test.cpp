@@ -275,6 +275,9 @@ TEST_CASE("a parameter out of its range is refused by name") {
     REQUIRE(error.fields().size() == 2);
     CHECK(error.fields()[0].field == "range_m");
     CHECK(error.fields()[1].field == "cluster_distance_m");
+    CHECK(std::string(error.what()) ==
+          "A parameter of the comparison is out of its range: range_m must be 0 or more; "
+          "cluster_distance_m must be above 0");
   }
 }
 

@@ -50,6 +50,20 @@ TEST_CASE("check-config tells every error of a file with its line, and the daemo
   CHECK_FALSE(std::filesystem::exists(folder.path() / "data"));
 }
 
+TEST_CASE("check-config refuses what the daemon would not start with") {
+  const raywatch::TempDir folder;
+  const std::string file = (folder.path() / "raywatch.toml").string();
+  std::ofstream(file) << "[http]\nhost = '0.0.0.0'\nport = 0\n[dashboard]\ndirectory = '/nope'\n";
+  const Ended checked = run_raywatch({"check-config", file});
+  const Ended served = run_raywatch({"serve", "--config", file, "--data-dir", (folder.path() / "data").string()});
+  CHECK(checked.exit_code == 1);
+  CHECK(checked.out.find("http.host, line 2: ") != std::string::npos);
+  CHECK(checked.out.find("dashboard.directory, line 5: ") != std::string::npos);
+  CHECK(served.exit_code == 2);
+  CHECK(served.err == "raywatch: " + checked.out);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "data"));
+}
+
 TEST_CASE("check-config is content with the example") {
   const Ended checked = run_raywatch({"check-config", RAYWATCH_SOURCE_DIR "/config/raywatch.toml"});
   CHECK(checked.exit_code == 0);

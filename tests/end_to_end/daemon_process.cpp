@@ -12,10 +12,11 @@
 
 namespace raywatch::test {
 
-DaemonProcess::DaemonProcess(const std::filesystem::path& data_dir, const std::vector<std::string>& more_arguments) {
+DaemonProcess::DaemonProcess(const std::filesystem::path& data_dir, const std::vector<std::string>& more_arguments,
+                             const std::string& listen) {
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-  std::vector<std::string> arguments = {"serve", "--data-dir", data_dir.string(), "--listen", "127.0.0.1:0"};
+  std::vector<std::string> arguments = {"serve", "--data-dir", data_dir.string(), "--listen", listen};
   arguments.insert(arguments.end(), more_arguments.begin(), more_arguments.end());
   process_ = spawn_raywatch(arguments, pipe[1], pipe[1]);
   ::close(pipe[1]);

@@ -11,11 +11,12 @@
 
 namespace raywatch::test {
 
-/// A running `raywatch serve` on a free port. It listens when the constructor returns.
+/// A running `raywatch serve`, on a free port unless told otherwise. It listens when the constructor returns.
 class DaemonProcess {
  public:
   /// @throws std::runtime_error with its log when it ends before it listens.
-  explicit DaemonProcess(const std::filesystem::path& data_dir, const std::vector<std::string>& more_arguments = {});
+  explicit DaemonProcess(const std::filesystem::path& data_dir, const std::vector<std::string>& more_arguments = {},
+                         const std::string& listen = "127.0.0.1:0");
   /// Kills it if it still runs.
   ~DaemonProcess();
   DaemonProcess(const DaemonProcess&) = delete;

@@ -155,7 +155,8 @@ TEST_CASE("another address than loopback needs a flag") {
   const Ended refused =
       run_raywatch({"serve", "--data-dir", (folder.path() / "data").string(), "--listen", "0.0.0.0:0"});
   CHECK(refused.exit_code == 2);
-  CHECK(refused.err.find("0.0.0.0") != std::string::npos);
+  CHECK(refused.err.find("--listen: \"0.0.0.0\" is not a loopback address") != std::string::npos);
+  CHECK(refused.err.find("--allow-remote, or allow_remote = true") != std::string::npos);
 }
 
 TEST_CASE("when the queue is full, uploads are asked to come back, and nothing is lost") {

@@ -67,6 +67,12 @@ TEST_CASE("the content shows the format, whatever the file is called") {
   }
 }
 
+TEST_CASE("numbers that are none show a table all the same, so that the reader says what is wrong") {
+  CHECK(detected("nan nan nan\nnan nan nan\n", "upload-17") == ScanFormat::text);
+  CHECK(detected("-inf,NaN,1.5\n", "upload-17") == ScanFormat::text);
+  CHECK(contains(refusal<InvalidInput>("nan nan nan\nnan nan nan\nnan nan nan\n", "upload-17"), "no finite point"));
+}
+
 TEST_CASE("where the content does not tell, the name does") {
   CHECK(detected("????", "A.PCD") == ScanFormat::pcd);
   CHECK(detected("????", "a.ply") == ScanFormat::ply);
@@ -83,6 +89,7 @@ TEST_CASE("an unknown format is refused with the known ones") {
                                   "ELF"}) {
     CAPTURE(bytes);
     CHECK(contains(refusal<UnsupportedFormat>(bytes, "upload-17"), "known are pcd, ply, las"));
+    CHECK(contains(refusal<UnsupportedFormat>(bytes, "upload-17"), "give format=kitti"));
   }
   CHECK(contains(refusal<UnsupportedFormat>("RWPB....", "points.bin"), "point table that raywatch wrote"));
 }
@@ -175,6 +182,15 @@ TEST_CASE("a KITTI file that is no whole number of records is refused") {
   const PointCloud cloud = decode(bits(1.0F) + bits(2.0F) + bits(3.0F) + bits(0.5F), "000000.bin")[0].points;
   CHECK(cloud[0] == Eigen::Vector3f(1, 2, 3));
   CHECK(cloud.intensity == std::vector<float>{0.5F});
+}
+
+TEST_CASE("a file on the disk tells its format by its content, else by its ending") {
+  const TempDir folder;
+  for (const NamedFile& file : one_file_of_each_format()) {
+    std::ofstream(folder.path() / file.name, std::ios::binary) << file.bytes;
+    CHECK(scan_format_of(folder.path() / file.name) == detected(file.bytes, file.name));
+  }
+  CHECK_THROWS_AS(scan_format_of(folder.path() / "absent.pcd"), StorageError);
 }
 
 TEST_CASE("a file is read from the disk, and what is none is refused") {

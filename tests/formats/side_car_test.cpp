@@ -63,6 +63,11 @@ TEST_CASE("a side-car with a mistake is refused with the file and the member") {
   CHECK(contains(message_for(R"({"sensor": "a", "sensor": "b"})"), "sensor: stands there twice"));
 }
 
+TEST_CASE("a mistake is told once, with the member at its place") {
+  CHECK(message_for(R"({"captured_at": 7})") == "scan.pcd.json: captured_at: must be a string");
+  CHECK(message_for(R"({"frame": "world "})") == "scan.pcd.json: frame: 'world ' is no frame; it is sensor or world");
+}
+
 TEST_CASE("a scan file without a side-car has no hints") {
   const TempDir folder;
   CHECK_FALSE(read_side_car(folder.path() / "scan.pcd").pose);
@@ -98,7 +103,7 @@ TEST_CASE("a pose as text is seven numbers") {
   const Pose pose = parse_pose_text("1, 2.5,-3,0,0,0,1", "pose");
   CHECK(pose.position_m == Eigen::Vector3d(1, 2.5, -3));
   CHECK(pose.orientation.w() == 1.0);
-  CHECK_THROWS_WITH_AS(parse_pose_text("1,2,3", "pose"), doctest::Contains("pose: must be seven numbers"),
+  CHECK_THROWS_WITH_AS(parse_pose_text("1,2,3", "pose"), "must be seven numbers, x,y,z,qx,qy,qz,qw, but there are 3",
                        InvalidInput);
   CHECK_THROWS_WITH_AS(parse_pose_text("1,2,3,0,0,0,one", "pose"), doctest::Contains("'one' is not a number"),
                        InvalidInput);

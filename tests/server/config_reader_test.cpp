@@ -122,7 +122,9 @@ TEST_CASE("a text that is no TOML is refused with its line") {
 }
 
 TEST_CASE("a file that is not there is refused") {
-  CHECK_THROWS_AS(ConfigReader::open("/there/is/no/such.toml"), InvalidInput);
+  CHECK_THROWS_WITH_AS(ConfigReader::open("/there/is/no/such.toml"), "/there/is/no/such.toml: there is no such file",
+                       InvalidInput);
+  CHECK_THROWS_WITH_AS(ConfigReader::open("/tmp"), "/tmp: is a directory, not a file", InvalidInput);
 }
 
 }  // namespace raywatch

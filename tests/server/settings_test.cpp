@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "core/error.hpp"
+#include "tests/support/temp_dir.hpp"
 
 namespace raywatch {
 namespace {
@@ -64,6 +65,51 @@ TEST_CASE("folders are tables of an array, each with a path, and what is wrong i
         "ingest.folder[0].sensr: line 3: unknown key; did you mean ingest.folder[0].sensor?");
   CHECK(complaint("[ingest]\nfolder = '/a'\n") ==
         "ingest.folder: line 2: must be an array of tables, [[ingest.folder]], not string");
+}
+
+TEST_CASE("what would not start, or not do what it promises, is refused with its key and line") {
+  const TempDir folder;
+  const auto complaint = [](const std::string& toml, const SettingsGiven& given = {}) {
+    try {
+      parse_settings(toml, "test.toml", given);
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  const std::string remote = "[http]\nport = 0\nhost = '0.0.0.0'\n";
+  CHECK(has(complaint(remote), "test.toml:\n  http.host, line 3: \"0.0.0.0\" is not a loopback address"));
+  CHECK(has(complaint(remote), "--allow-remote, or allow_remote = true"));
+  CHECK(complaint(remote + "allow_remote = true\n") == "accepted");
+  CHECK(complaint(remote, {.allow_remote = true}) == "accepted");
+  CHECK(complaint(remote, {.host = "127.0.0.1"}) == "accepted");
+  CHECK(has(complaint("", {.host = "0.0.0.0"}), "--listen: \"0.0.0.0\" is not a loopback address"));
+  CHECK(
+      has(complaint("[http]\nallow_remote = true\nhost = 'not a host'\n"), "line 3: \"not a host\" must be a host's"));
+  CHECK(has(complaint("[dashboard]\ndirectory = '/nope'\n"), "dashboard.directory, line 2: /nope holds no built"));
+  CHECK(has(complaint("[storage]\ndata_dir = ''\n"), "storage.data_dir, line 2: must not be empty"));
+  CHECK(has(complaint("[storage]\ndata_dir = '/dev/null'\n"), "line 2: is no directory"));
+  CHECK(complaint("[storage]\ndata_dir = ''\n", {.data_dir = "data"}) == "accepted");
+  CHECK(has(complaint("[delivery]\npublic_url = 'nourl'\n"), "delivery.public_url, line 2: must begin with https://"));
+  CHECK(complaint("[delivery]\npublic_url = 'https://raywatch.example.com'\n") == "accepted");
+  CHECK(has(complaint("[delivery]\nca_file = '/nope'\n"), "delivery.ca_file, line 2: there is no file /nope"));
+  for (const char* proxy : {"x y", "ftp://proxy", "http://"}) {
+    CAPTURE(proxy);
+    CHECK(has(complaint("[delivery]\nproxy = '" + std::string(proxy) + "'\n"), "delivery.proxy, line 2: must be"));
+  }
+  for (const char* proxy : {"proxy:3128", "http://proxy:3128", "socks5h://user:word@[::1]:1080"}) {
+    CAPTURE(proxy);
+    CHECK(complaint("[delivery]\nproxy = '" + std::string(proxy) + "'\n") == "accepted");
+  }
+  CHECK(has(complaint("[retention]\nmin_free_mib = 10\n"), "retention.min_free_mib, line 2: must be more than"));
+  CHECK(complaint("[retention]\nmin_free_mib = 300\n") == "accepted");
+  const std::string path = folder.path().string();
+  CHECK(has(complaint("[[ingest.folder]]\npath = '" + path + "/a'\n[[ingest.folder]]\npath = '" + path + "/b/../a/'\n"),
+            "ingest.folder[1].path, line 4: is the folder of ingest.folder[0], too"));
+  CHECK(has(complaint("[[ingest.folder]]\npath = ''\n"), "line 2: must not be empty"));
 }
 
 TEST_CASE("limits of what is kept reach the parts that keep it") {

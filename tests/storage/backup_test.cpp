@@ -65,6 +65,20 @@ TEST_CASE_FIXTURE(StoreFixture, "a backup goes into an empty or a new directory 
   CHECK_THROWS_AS(store.backup({}), InvalidInput);
 }
 
+TEST_CASE_FIXTURE(StoreFixture, "a backup does not go into the data directory, by whatever way") {
+  const TempDir elsewhere;
+  std::filesystem::create_directory_symlink(store.data_dir(), elsewhere / "link");
+  for (const std::filesystem::path& target :
+       {store.data_dir(), store.data_dir() / "copy", store.data_dir() / "deep" / "copy", elsewhere / "link" / "copy",
+        store.data_dir() / ".." / store.data_dir().filename() / "copy"}) {
+    CAPTURE(target.string());
+    CHECK_THROWS_WITH_AS(store.backup(target), doctest::Contains("must not lie in the data directory"), InvalidInput);
+  }
+  CHECK_FALSE(std::filesystem::exists(store.data_dir() / "copy"));
+  store.backup(store.data_dir().string() + "-copy");  // its name only begins like it
+  std::filesystem::remove_all(store.data_dir().string() + "-copy");
+}
+
 TEST_CASE("a backup without room leaves its directory empty") {
   const TempDir directory, target;
   StoreOptions options = options_for(directory.path());
