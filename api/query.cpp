@@ -65,6 +65,12 @@ std::optional<Time> Query::time(std::string_view name) {
   });
 }
 
+TimeRange Query::time_range() {
+  const TimeRange range{time("from"), time("to")};
+  if (range.from && range.to && *range.from >= *range.to) fail("to", "must be later than 'from'");
+  return range;
+}
+
 std::optional<std::vector<double>> Query::reals(std::string_view name, std::size_t count) {
   const auto given = text(name);
   if (!given) return std::nullopt;

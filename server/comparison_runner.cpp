@@ -63,7 +63,7 @@ std::vector<bool> normal_together(std::span<const LoadedScan> scans, std::span<c
   std::vector<bool> result;
   for (std::size_t p = 0; p < scans.size(); ++p) {
     const auto belongs = [&](std::size_t q) {
-      const Duration earlier = scans[p].captured_at - scans[q].captured_at;
+      const Duration earlier = between(scans[q].captured_at, scans[p].captured_at);
       return earlier < Duration::zero() || (learned.contains(priors[q].scan) && earlier <= kOneTime);
     };
     bool together = true;

@@ -82,6 +82,11 @@ TEST_CASE("a track is listed by kind and time, with its alerts and what it was m
   CHECK_EQ(yard.items("/api/v1/tracks?to=" + tracks[0]["first_seen_at"].get<std::string>()).size(), 0);
   CHECK_EQ(yard.items("/api/v1/tracks?from=" + tracks[0]["last_seen_at"].get<std::string>()).size(), 1);
   CHECK_NE(yard.get("/api/v1/tracks?kind=gone").complaint_about("kind"), "");
+  const std::string backwards = "from=2026-03-02T00:00:00Z&to=2026-03-01T00:00:00Z";
+  for (const std::string list : {"tracks?", "changes?", "history?site=yard&point=0,0,0&"}) {
+    CAPTURE(list);
+    CHECK_EQ(yard.get("/api/v1/" + list + backwards).complaint_about("to"), "must be later than 'from'");
+  }
 
   const std::string target = "/api/v1/tracks/" + tracks[0]["id"].dump();
   const json alerts = yard.get(target).json()["alerts"];
@@ -120,6 +125,8 @@ TEST_CASE("a calendar counts what happened on each day of the site's time zone")
   CHECK_EQ(yard.get(range + "2026-03-01T12:00:00Z").complaint_about("to"), "must be later than 'from'");
   CHECK_EQ(yard.get(range + "2028-03-01T12:00:00Z").complaint_about("to"), "must be at most 400 days after 'from'");
   CHECK_EQ(yard.get("/api/v1/calendar?site=yard").complaint_about("from"), "is required");
+  const std::string centuries = "/api/v1/calendar?site=yard&from=1700-01-01T00:00:00Z&to=2200-01-01T00:00:00Z";
+  CHECK_EQ(yard.get(centuries).complaint_about("to"), "must be at most 400 days after 'from'");
 }
 
 TEST_CASE("the evidence of a change is its points, what is around them, and the rays that went through its place") {

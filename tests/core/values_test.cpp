@@ -42,6 +42,19 @@ TEST_CASE("what is no time is refused with what would be one") {
   }
 }
 
+TEST_CASE("times farther apart than a duration reaches keep their order, and none overflows") {
+  const Time first = parse_rfc3339("1678-01-01T00:00:00Z"), last = parse_rfc3339("2261-12-31T23:59:59Z");
+  CHECK(between(first, last) == Duration::max());
+  CHECK(between(last, first) == -Duration::max());
+  CHECK(std::chrono::abs(between(Time::max(), Time::min())) == Duration::max());
+  CHECK(between(Time{}, Time::min()) == -Duration::max());
+  CHECK(between(first, first + 5s) == 5s);
+  CHECK(between(first + 5s, first) == -5s);
+  CHECK(shifted(first, 5s) == first + 5s);
+  CHECK(shifted(first, -std::chrono::days(3650)) == Time::min());
+  CHECK(shifted(last, std::chrono::days(3650)) == Time::max());
+}
+
 TEST_CASE("a pose and its inverse cancel out") {
   const Pose world_from_a{Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized())),
                           {4, -5, 6}};
