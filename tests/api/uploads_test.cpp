@@ -88,6 +88,44 @@ TEST_CASE("other bytes for the same sensor and time are a conflict") {
   check_untouched(api, 1);
 }
 
+TEST_CASE("the same bytes with another pose or frame are a conflict that says what differs and what can be done") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const std::string points = "1 2 3\n4 5 6\n7 8 9.5\n", query = kQuery + "&format=xyz&pose=10,20,1.5,0,0,0,1";
+  const json first = api.upload_bytes(points, query).json();
+  CHECK_EQ(api.upload_bytes(points, query).status, 200);
+  CHECK_EQ(api.upload_bytes(points, query + ".0").status, 200);  // the same pose, written in another way
+
+  const Reply elsewhere = api.upload_bytes(points, kQuery + "&format=xyz&pose=10,20.5,1.5,0,0,0,1");
+  CHECK_EQ(elsewhere.status, 409);
+  CHECK_EQ(elsewhere.problem(), "conflict");
+  const std::string id = first["id"].dump();
+  CHECK_EQ(elsewhere.complaint_about("pose"), "differs from that of scan " + id + " by 0.5 m and 0 degrees");
+  CHECK_NE(elsewhere.json()["detail"].get<std::string>().find("delete scan " + id + " first"), std::string::npos);
+  const Reply turned = api.upload_bytes(points, kQuery + "&format=xyz&pose=10,20,1.5,0,0,1,0");
+  CHECK_EQ(turned.complaint_about("pose"), "differs from that of scan " + id + " by 0 m and 180 degrees");
+  const Reply in_world = api.upload_bytes(points, query + "&frame=world");
+  CHECK_EQ(in_world.status, 409);
+  CHECK_NE(in_world.complaint_about("frame"), "");
+  CHECK_EQ(api.get("/api/v1/scans/" + id).json()["pose"], first["pose"]);
+  check_untouched(api, 1);
+}
+
+TEST_CASE("what says nothing of its pose may come again after its sensor got another one") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const auto put_sensor = [&](double x_m) {
+    api.patch("/api/v1/sensors/gate", {{"pose", {{"position_m", {x_m, 8, 9}}, {"orientation_xyzw", {0, 0, 0, 1}}}}});
+  };
+  const std::string points = "1 2 3\n4 5 6\n7 8 9.5\n", query = kQuery + "&format=xyz";
+  put_sensor(7);
+  const json first = api.upload_bytes(points, query).json();
+  put_sensor(70);
+  const Reply again = api.upload_bytes(points, query);
+  CHECK_EQ(again.status, 200);
+  CHECK_EQ(again.json()["pose"], first["pose"]);
+}
+
 TEST_CASE("a PTX file with several scans is answered with all of them") {
   ApiFixture api;
   api.make_site_and_sensor();
