@@ -296,9 +296,8 @@ void ComparisonRunner::commit(const Job& job, const Subject& subject, Comparison
   if (!is_first) return;
   written.keep();
   log_registration(subject.scan, result);
-  spdlog::log(result.changes.empty() ? spdlog::level::debug : spdlog::level::info,
-              "scan {} compared with {} others in {:.0f} ms: {} changes", subject.scan.id.value, result.priors.size(),
-              result.timings_ms.at("total"), result.changes.size());
+  spdlog::info("comparison {}: scan {} compared with {} others in {:.0f} ms: {} changes", job.comparison.value,
+               subject.scan.id.value, result.priors.size(), result.timings_ms.at("total"), result.changes.size());
 }
 
 }  // namespace raywatch

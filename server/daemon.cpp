@@ -97,6 +97,7 @@ struct Daemon::Impl {
 
   Commands commands();
   UploadResult ingest_file(const Upload& upload);
+  UploadResult receive(const Upload& upload);
   ComparisonRecord compare_again(ScanId scan, const Reference& reference, const CompareParameters& parameters);
   bool wait_for_scan(ScanId scan, std::chrono::milliseconds patience);
   void delete_scan(ScanId scan);
@@ -127,7 +128,7 @@ struct Daemon::Impl {
 };
 
 Commands Daemon::Impl::commands() {
-  return {.ingest = [this](const Upload& upload) { return ingest_file(upload); },
+  return {.ingest = [this](const Upload& upload) { return receive(upload); },
           .compare = [this](ScanId scan, const Reference& reference,
                             const CompareParameters& parameters) { return compare_again(scan, reference, parameters); },
           .wait_for_scan = [this](ScanId scan,
@@ -144,6 +145,17 @@ UploadResult Daemon::Impl::ingest_file(const Upload& upload) {
   if (result.already_stored) return result;
   scans_ingested += result.scans.size();
   signal.notify();
+  return result;
+}
+
+/// What is uploaded; of files in folders their thread says more.
+UploadResult Daemon::Impl::receive(const Upload& upload) {
+  UploadResult result = ingest_file(upload);
+  if (result.already_stored) return result;
+  for (const ScanRecord& scan : result.scans) {
+    spdlog::info("scan {} of sensor {} stored: {} points, captured at {}", scan.id.value, *upload.hints.sensor,
+                 scan.points, format_rfc3339(scan.captured_at));
+  }
   return result;
 }
 
