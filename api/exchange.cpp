@@ -50,7 +50,7 @@ HttpAnswer answer_of(const ExchangeContext& context, const httplib::Request& req
   const std::string_view path = target.substr(0, question);
   const std::string_view query = question == std::string_view::npos ? "" : target.substr(question + 1);
   check_source({request.method, request.version, header_of(request, "Host"), header_of(request, "Origin")},
-               is_loopback_host(context.config.host));
+               {is_loopback_host(context.config.host), context.config.public_url});
   if (request.method == "OPTIONS") return options_answer(path);
   if (auto page = dashboard_answer(context.dashboard, request, path)) return *std::move(page);
   RouteMatch match = find_route(request.method, path);

@@ -38,8 +38,10 @@ constexpr std::chrono::seconds kStopPatience{3};
 
 unsigned cores() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-HttpConfig with_spool(HttpConfig http, const std::filesystem::path& data_dir) {
-  if (http.spool_dir.empty()) http.spool_dir = data_dir / "spool";
+HttpConfig http_config(const DaemonConfig& config) {
+  HttpConfig http = config.http;
+  if (http.spool_dir.empty()) http.spool_dir = config.data_dir / "spool";
+  http.public_url = config.delivery.public_url;
   return http;
 }
 
@@ -83,7 +85,7 @@ struct Daemon::Impl {
         retention(store, config.retention, [this](ScanId scan) { cache.forget(scan); }),
         caretaker_thread(caretaker, retention, now),
         deliverer(store, config.delivery, now),
-        http(with_spool(config.http, config.data_dir),
+        http(http_config(config),
              {store, commands(), [this] { return status(); }, now,
               [](const std::string& failure) { spdlog::error("{}", failure); }, config.retention.defaults}) {
     for (const FolderConfig& folder : config.folders) {
