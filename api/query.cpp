@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/nearest_name.hpp"
+
 namespace raywatch {
 
 Query::Query(std::string_view query) {
