@@ -428,6 +428,20 @@ TEST_CASE("a silence holds back alerts of what it names") {
            "");
 }
 
+TEST_CASE("a silence is for a sensor of its own site, and what is wrong with it is said once") {
+  WatchedYard yard;
+  yard.post("/api/v1/sites", {{"name", "hall"}});
+  json silence = {{"site", "hall"}, {"sensor", "gate"}, {"until", "2026-03-03T00:00:00Z"}, {"by", "anna"}};
+  CHECK_EQ(yard.post("/api/v1/silences", silence).complaint_about("sensor"), "is of another site");
+  CHECK_EQ(yard.items("/api/v1/silences").size(), 0);
+  silence.erase("until");
+  silence["from"] = "2026-03-02T00:00:00Z";
+  silence["to"] = "2026-03-03T00:00:00Z";
+  const Reply reply = yard.post("/api/v1/silences", silence);
+  CHECK_EQ(reply.complaint_about("until"), "is required");
+  CHECK_EQ(reply.complaint_about("to").find("did you mean"), std::string::npos);
+}
+
 TEST_CASE("the log of events has everything in order, by pages") {
   WatchedYard yard;
   yard.alert_of_box();
