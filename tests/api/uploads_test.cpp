@@ -196,6 +196,7 @@ TEST_CASE("uploads that are not acceptable are refused by their reason and leave
       {"no pose anywhere", "1 2 3\n4 5 6\n", kQuery + "&format=xyz", 422, "invalid-input"},
       {"no time anywhere", pcd, "sensor=gate", 422, "invalid-input"},
       {"non-unit quaternion", pcd, kQuery + "&pose=1,2,3,0,0,0,2", 422, "invalid-input"},
+      {"position that is nowhere", pcd, kQuery + "&pose=1e30,2,3,0,0,0,1", 422, "invalid-input"},
       {"pose with six numbers", pcd, kQuery + "&pose=1,2,3,0,0,0", 422, "invalid-input"},
       {"time in the future", pcd, "sensor=gate&captured_at=2026-03-02T08:02:00Z", 422, "invalid-input"},
       {"unknown sensor", pcd, "sensor=nobody&captured_at=2026-03-01T08:00:00Z", 404, "not-found"},
