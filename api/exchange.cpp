@@ -135,12 +135,22 @@ void fill_response(const httplib::Request& request, HttpAnswer answer, httplib::
   fill_content(request, answer, response);
 }
 
+/// The library decodes what it knows under these names, and takes all else as it comes.
+std::string encoding_of(const httplib::Request& request) {
+  if (!request.has_header("Content-Encoding")) return {};
+  const std::string encoding = request.get_header_value("Content-Encoding");
+  if (lower(encoding) == "identity") return {};
+  const bool is_known = encoding == "gzip" || encoding == "deflate" || encoding == "br";
+  if (!is_known || request.get_header_value_count("Content-Encoding") > 1) throw HttpError(problem_of_status(415));
+  return encoding;
+}
+
 }  // namespace
 
 RequestBody::Framing framing_of(const httplib::Request& request) {
   RequestBody::Framing framing;
   framing.content_type = request.get_header_value("Content-Type");
-  framing.encoded = request.has_header("Content-Encoding");
+  framing.encoding = encoding_of(request);
   const bool chunked = lower(request.get_header_value("Transfer-Encoding")) == "chunked";
   if (request.has_header("Transfer-Encoding") && !chunked) {
     throw HttpError(bad_request("The only Transfer-Encoding that is read is chunked."));

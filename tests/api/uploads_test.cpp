@@ -238,6 +238,22 @@ TEST_CASE("a form that holds a file is not taken for the file, but any other typ
   CHECK_EQ(curl.status, 201);
 }
 
+TEST_CASE("content that is encoded in an unknown way, or not as it says, is refused") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  for (const char* encoding : {"zstd", "gzip, br", "compress", "vibration"}) {
+    CAPTURE(encoding);
+    const Reply reply = api.upload_bytes(wall_pcd(), kQuery, {{"Content-Encoding", encoding}});
+    CHECK_EQ(reply.status, 415);
+    CHECK_EQ(reply.problem(), "unsupported-media-type");
+  }
+  const Reply plain = api.upload_bytes(wall_pcd(), kQuery, {{"Content-Encoding", "gzip"}});
+  CHECK_EQ(plain.status, 400);
+  CHECK_NE(plain.json()["detail"].get<std::string>().find("is not gzip"), std::string::npos);
+  check_untouched(api, 0);
+  CHECK_EQ(api.upload_bytes(wall_pcd(), kQuery, {{"Content-Encoding", "identity"}}).status, 201);
+}
+
 TEST_CASE("a body over the limit is refused by its announced length") {
   DaemonConfig config;
   config.http.max_body_bytes = 10'000;
