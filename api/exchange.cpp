@@ -197,7 +197,7 @@ void answer_request(const ExchangeContext& context, const httplib::Request& requ
   }
   context.statistics.count(answer.status);
   if (answer.status == 500 && context.services.report) {
-    context.services.report(request.method + " " + request.path + " failed: " + answer.body);
+    context.services.report(request.method + " " + request.target + " failed: " + answer.body);
   }
   fill_response(request, std::move(answer), response);
 }

@@ -471,6 +471,7 @@ TEST_CASE("a running store is copied on request, into an empty directory only") 
   CHECK(std::filesystem::exists(api.folder() / "copy" / "raywatch.db"));
   CHECK_EQ(api.post("/api/v1/backup", {{"directory", directory}}).status, 422);
   CHECK_EQ(api.post("/api/v1/backup", {{"directory", "copy"}}).status, 422);
+  CHECK_NE(api.post("/api/v1/backup", {{"directory", "/proc/copy"}}).complaint_about("directory"), "");
   CHECK_EQ(api.post("/api/v1/backup", json::object()).complaint_about("directory"), "is required");
 }
 
