@@ -403,7 +403,9 @@ TEST_CASE("the history of a place says when it was free, occupied or out of sigh
   CHECK_EQ(box[1]["state"], "occupied");
   const std::string later = "&from=2026-03-01T08:02:00Z&to=2026-03-01T08:04:00Z";
   CHECK_EQ(yard.get("/api/v1/history?site=yard&point=95.5,200,1.5" + later).json()["intervals"].size(), 1);
-  CHECK_NE(yard.get("/api/v1/history?site=yard").complaint_about("point"), "");
+  CHECK_EQ(yard.get("/api/v1/history?site=yard").complaint_about("point"), "must be given, or else 'box'");
+  CHECK_EQ(yard.get("/api/v1/history?site=yard&point=1,1,1&box=1,1,1,2,2,2").complaint_about("point"),
+           "give 'point' or 'box', not both");
   CHECK_NE(yard.get("/api/v1/history?site=yard&box=1,1,1,1,2,2").complaint_about("box"), "");
   CHECK_EQ(yard.get("/api/v1/history?site=nowhere&point=0,0,0").status, 404);
 }
