@@ -54,7 +54,8 @@ std::optional<std::int64_t> Query::integer(std::string_view name, const IntegerB
   const auto given = text(name);
   if (!given) return std::nullopt;
   const auto value = parse_integer(*given);
-  const auto wrong = value ? complaint(*value, bounds) : std::optional<std::string>("must be a whole number");
+  const auto wrong =
+      value ? complaint(*value, bounds) : complaint_of_no_integer(parse_finite(*given).value_or(0.0), bounds);
   if (wrong) fail(name, *wrong);
   return wrong ? std::nullopt : value;
 }
