@@ -138,7 +138,7 @@ void fill_response(const httplib::Request& request, HttpAnswer answer, httplib::
 /// The library decodes what it knows under these names, and takes all else as it comes.
 std::string encoding_of(const httplib::Request& request) {
   if (!request.has_header("Content-Encoding")) return {};
-  const std::string encoding = request.get_header_value("Content-Encoding");
+  std::string encoding = request.get_header_value("Content-Encoding");
   if (lower(encoding) == "identity") return {};
   const bool is_known = encoding == "gzip" || encoding == "deflate" || encoding == "br";
   if (!is_known || request.get_header_value_count("Content-Encoding") > 1) throw HttpError(problem_of_status(415));
