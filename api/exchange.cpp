@@ -50,7 +50,7 @@ HttpAnswer answer_of(const ExchangeContext& context, const httplib::Request& req
   const std::string_view path = target.substr(0, question);
   const std::string_view query = question == std::string_view::npos ? "" : target.substr(question + 1);
   check_source({request.method, request.version, header_of(request, "Host"), header_of(request, "Origin")},
-               is_loopback_host(context.config.host));
+               {is_loopback_host(context.config.host), context.config.public_url});
   if (request.method == "OPTIONS") return options_answer(path);
   if (auto page = dashboard_answer(context.dashboard, request, path)) return *std::move(page);
   RouteMatch match = find_route(request.method, path);
@@ -135,12 +135,22 @@ void fill_response(const httplib::Request& request, HttpAnswer answer, httplib::
   fill_content(request, answer, response);
 }
 
+/// The library decodes what it knows under these names, and takes all else as it comes.
+std::string encoding_of(const httplib::Request& request) {
+  if (!request.has_header("Content-Encoding")) return {};
+  std::string encoding = request.get_header_value("Content-Encoding");
+  if (lower(encoding) == "identity") return {};
+  const bool is_known = encoding == "gzip" || encoding == "deflate" || encoding == "br";
+  if (!is_known || request.get_header_value_count("Content-Encoding") > 1) throw HttpError(problem_of_status(415));
+  return encoding;
+}
+
 }  // namespace
 
 RequestBody::Framing framing_of(const httplib::Request& request) {
   RequestBody::Framing framing;
   framing.content_type = request.get_header_value("Content-Type");
-  framing.encoded = request.has_header("Content-Encoding");
+  framing.encoding = encoding_of(request);
   const bool chunked = lower(request.get_header_value("Transfer-Encoding")) == "chunked";
   if (request.has_header("Transfer-Encoding") && !chunked) {
     throw HttpError(bad_request("The only Transfer-Encoding that is read is chunked."));
@@ -187,7 +197,7 @@ void answer_request(const ExchangeContext& context, const httplib::Request& requ
   }
   context.statistics.count(answer.status);
   if (answer.status == 500 && context.services.report) {
-    context.services.report(request.method + " " + request.path + " failed: " + answer.body);
+    context.services.report(request.method + " " + request.target + " failed: " + answer.body);
   }
   fill_response(request, std::move(answer), response);
 }

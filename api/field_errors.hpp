@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,8 +19,5 @@ class FieldErrors {
  private:
   std::vector<FieldError> errors_;
 };
-
-/// "; did you mean 'captured_at'?" when one of `known` is near enough to `name`, else a list of them all.
-std::string suggestion(std::string_view name, std::span<const std::string> known);
 
 }  // namespace raywatch

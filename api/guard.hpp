@@ -9,6 +9,12 @@ namespace raywatch {
 /// True for "localhost", 127.0.0.0/8 and ::1 (also in brackets).
 bool is_loopback_host(std::string_view host);
 
+/// Which hosts and origins are the daemon's own.
+struct OwnAddress {
+  bool loopback_only = true;  ///< names of loopback only, beside the public one
+  std::string public_url;     ///< under which people reach it, through a proxy perhaps; empty: not known
+};
+
 /// What a browser says about where a request comes from.
 struct RequestSource {
   std::string_view method;
@@ -20,6 +26,6 @@ struct RequestSource {
 /// Keeps web pages of other origins from writing, and, when only loopback is listened on, from reading through a name
 /// of their own that they let point here (DNS rebinding).
 /// @throws HttpError: 403, or 400 without a Host header.
-void check_source(const RequestSource& source, bool loopback_only);
+void check_source(const RequestSource& source, const OwnAddress& own);
 
 }  // namespace raywatch

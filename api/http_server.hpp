@@ -23,6 +23,7 @@ struct HttpConfig {
   std::chrono::milliseconds idle_timeout{5'000};    ///< a connection without a request is kept this long
   std::chrono::milliseconds stall_timeout{10'000};  ///< a client that sends or takes nothing for this long is dropped
   std::uint64_t min_client_bytes_per_s = 4096;      ///< and so is one that is slower than this, after that time
+  std::string public_url = {};                      ///< under which people reach the daemon; empty: as it listens
   std::filesystem::path dashboard_dir = {};         ///< the built dashboard; empty: there is none
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/nearest_name.hpp"
+
 namespace raywatch {
 namespace {
 
@@ -81,8 +83,8 @@ std::optional<std::int64_t> JsonObject::integer(std::string_view name, const Int
   if (value == nullptr) return std::nullopt;
   const bool fits =
       value->is_number_integer() && (!value->is_number_unsigned() || value->get<std::uint64_t>() >> 63 == 0);
-  const auto wrong =
-      fits ? complaint(value->get<std::int64_t>(), bounds) : std::optional<std::string>("must be a whole number");
+  const auto wrong = fits ? complaint(value->get<std::int64_t>(), bounds)
+                          : complaint_of_no_integer(value->is_number() ? value->get<double>() : 0.0, bounds);
   if (wrong) fail(name, *wrong);
   return wrong ? std::nullopt : std::optional<std::int64_t>(value->get<std::int64_t>());
 }

@@ -83,7 +83,9 @@ Problem problem_of(std::exception_ptr failure) {
   } catch (const NotFound& error) {
     return make(404, "not-found", "What was asked for does not exist", error.what());
   } catch (const Conflict& error) {
-    return make(409, "conflict", "The request contradicts what is stored", error.what());
+    Problem problem = make(409, "conflict", "The request contradicts what is stored", error.what());
+    problem.errors = error.fields();
+    return problem;
   } catch (const PreconditionFailed& error) {
     return make(412, "precondition-failed", "What is stored has changed meanwhile", error.what());
   } catch (const Overloaded& error) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/nearest_name.hpp"
+
 namespace raywatch {
 
 Query::Query(std::string_view query) {
@@ -52,7 +54,8 @@ std::optional<std::int64_t> Query::integer(std::string_view name, const IntegerB
   const auto given = text(name);
   if (!given) return std::nullopt;
   const auto value = parse_integer(*given);
-  const auto wrong = value ? complaint(*value, bounds) : std::optional<std::string>("must be a whole number");
+  const auto wrong =
+      value ? complaint(*value, bounds) : complaint_of_no_integer(parse_finite(*given).value_or(0.0), bounds);
   if (wrong) fail(name, *wrong);
   return wrong ? std::nullopt : value;
 }
@@ -63,6 +66,12 @@ std::optional<Time> Query::time(std::string_view name) {
     if (blank != std::string::npos && blank > std::string_view("2026-01-01").size()) value[blank] = '+';
     return parse_rfc3339(value);
   });
+}
+
+TimeRange Query::time_range() {
+  const TimeRange range{time("from"), time("to")};
+  if (range.from && range.to && *range.from >= *range.to) fail("to", "must be later than 'from'");
+  return range;
 }
 
 std::optional<std::vector<double>> Query::reals(std::string_view name, std::size_t count) {

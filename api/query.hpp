@@ -15,6 +15,11 @@
 
 namespace raywatch {
 
+/// From a moment to one that is later; either may be open.
+struct TimeRange {
+  std::optional<Time> from, to;
+};
+
 /// The query of a request, read strictly. An endpoint asks for each parameter that it knows, then calls `finish`, which
 /// throws everything that was wrong: bad values, repeated parameters, parameters that nobody asked for.
 class Query {
@@ -27,6 +32,7 @@ class Query {
   std::optional<std::int64_t> integer(std::string_view name, const IntegerBounds& bounds = {});
   /// RFC 3339. A blank where the offset's '+' stood is taken for that: "…T02:10:00+01:00" is a common way to write it.
   std::optional<Time> time(std::string_view name);
+  TimeRange time_range();                                               ///< `from` and `to`
   std::optional<Eigen::Vector3d> vector3(std::string_view name);        ///< "x,y,z"
   std::optional<Eigen::AlignedBox3d> box(std::string_view name);        ///< "x0,y0,z0,x1,y1,z1", each 0 not above its 1
   std::optional<std::vector<std::string>> list(std::string_view name);  ///< "a,b,c", none empty

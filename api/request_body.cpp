@@ -27,7 +27,12 @@ void RequestBody::read(std::uint64_t max_bytes, const std::function<void(std::sp
     }
   });
   if (failure) std::rethrow_exception(failure);
-  if (!complete || (framing_.length && !framing_.encoded && received != *framing_.length)) {
+  if (!complete && !framing_.encoding.empty()) {
+    throw HttpError(bad_request("The content is not " + framing_.encoding +
+                                ", as Content-Encoding says, or it broke off: " + std::to_string(received) +
+                                " bytes could be read of it."));
+  }
+  if (!complete || (framing_.length && framing_.encoding.empty() && received != *framing_.length)) {
     throw HttpError(bad_request("The content broke off after " + std::to_string(received) + " bytes."));
   }
   finished_ = true;

@@ -25,7 +25,7 @@ class RequestBody {
     bool present = false;                 ///< the request has content
     std::optional<std::uint64_t> length;  ///< Content-Length
     std::string content_type;
-    bool encoded = false;  ///< Content-Encoding: the length is not that of the content
+    std::string encoding;  ///< Content-Encoding; when there is one, the length is not that of the content
   };
   RequestBody(Source source, Framing framing) : source_(std::move(source)), framing_(std::move(framing)) {}
 

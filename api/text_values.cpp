@@ -60,6 +60,13 @@ std::optional<std::string> complaint(std::int64_t value, const IntegerBounds& bo
   return std::nullopt;
 }
 
+std::string complaint_of_no_integer(double value, const IntegerBounds& bounds) {
+  constexpr double kBeyond = 0x1p63;
+  if (value >= kBeyond) return "must be at most " + std::to_string(bounds.max);
+  if (value < -kBeyond) return "must be at least " + std::to_string(bounds.min);
+  return "must be a whole number";
+}
+
 std::optional<double> parse_finite(std::string_view text) {
   const auto value = parse_whole<double>(text);
   return value && std::isfinite(*value) ? value : std::nullopt;

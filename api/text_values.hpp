@@ -23,6 +23,8 @@ struct IntegerBounds {
 /// What is wrong with a number ("must be at least 0"); nothing when it is within its bounds.
 std::optional<std::string> complaint(double value, const RealBounds& bounds);
 std::optional<std::string> complaint(std::int64_t value, const IntegerBounds& bounds);
+/// What is wrong with a number that is no integer of 64 bits: it is not whole, or far beyond the bounds.
+std::string complaint_of_no_integer(double value, const IntegerBounds& bounds);
 
 /// The whole text as a finite number.
 std::optional<double> parse_finite(std::string_view text);

@@ -72,7 +72,7 @@ std::vector<CandidateAssessment> choose_priors(std::span<const Eigen::Vector3d> 
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     CandidateAssessment& assessment = assessments[c];
     assessment.distance_m = (candidates[c].world_from_sensor.position_m - world_from_sensor.position_m).norm();
-    assessment.age = captured_at - candidates[c].captured_at;
+    assessment.age = between(candidates[c].captured_at, captured_at);
     assessment.overlap =
         share(static_cast<std::size_t>(std::count(covers[c].begin(), covers[c].end(), 1)), sample_m.size());
     if (!candidates[c].refused.empty()) {

@@ -40,7 +40,7 @@ void check(const EpochPair& epochs, Duration tolerance) {
   const auto by_time = [](const ScanView& a, const ScanView& b) { return a.captured_at < b.captured_at; };
   const auto last = std::ranges::max_element(epochs.before.scans, by_time);
   const auto first = std::ranges::min_element(epochs.after.scans, by_time);
-  if (!(last->captured_at + tolerance < first->captured_at)) {
+  if (between(last->captured_at, first->captured_at) <= tolerance) {
     throw InvalidInput("The scans of the later epoch must be later than those of the earlier one, by more than the " +
                        std::string("contemporary tolerance; choose time windows that do not touch."));
   }

@@ -53,7 +53,12 @@ class NotFound : public Error {
 /// The request contradicts what is stored: the same key with other content, a deletion of what is in use.
 class Conflict : public Error {
  public:
-  using Error::Error;
+  explicit Conflict(const std::string& message, std::vector<FieldError> fields = {})
+      : Error(message), fields_(std::move(fields)) {}
+  const std::vector<FieldError>& fields() const { return fields_; }
+
+ private:
+  std::vector<FieldError> fields_;
 };
 
 /// The caller's version of what it edits is not the stored one.

@@ -7,7 +7,7 @@
 namespace raywatch {
 
 Epoch epoch_of(const ScanView& prior, const ScanView& scan, Duration tolerance) {
-  const Duration age = scan.captured_at - prior.captured_at;
+  const Duration age = between(prior.captured_at, scan.captured_at);
   if (std::chrono::abs(age) <= tolerance) return Epoch::contemporary;
   return age > Duration::zero() ? Epoch::earlier : Epoch::later;
 }
@@ -130,8 +130,8 @@ PriorOrder order_by_age(std::span<const ScanView> priors, Duration tolerance) {
                    [&](std::size_t a, std::size_t b) { return priors[a].captured_at > priors[b].captured_at; });
   std::uint32_t group = 0;
   for (std::size_t k = 0; k < priors.size(); ++k) {
-    const bool gap =
-        k > 0 && priors[order.newest_first[k - 1]].captured_at - priors[order.newest_first[k]].captured_at > tolerance;
+    const bool gap = k > 0 && between(priors[order.newest_first[k]].captured_at,
+                                      priors[order.newest_first[k - 1]].captured_at) > tolerance;
     order.group.push_back(gap ? ++group : group);
   }
   return order;

@@ -29,7 +29,13 @@ struct PoseUncertainty {
 /// How far the norm of a quaternion that a user gives may be from 1; within it the quaternion is normalised.
 inline constexpr double kQuaternionNormTolerance = 1e-3;
 
-/// The pose as a user gave it, checked: all finite, the quaternion of unit norm within `kQuaternionNormTolerance`.
+/// How far from the origin of the coordinates a position may lie, on each axis. It leaves room for all coordinates of
+/// maps, also for eastings with the number of their zone before them, and for geocentric ones; millimetres given for
+/// metres exceed it.
+inline constexpr double kFarthestPosition_m = 1e8;
+
+/// The pose as a user gave it, checked: all finite, the position within `kFarthestPosition_m`, the quaternion of unit
+/// norm within `kQuaternionNormTolerance`.
 /// @throws InvalidInput naming `field` when it is not.
 Pose checked_pose(const Eigen::Vector3d& position_m, const Eigen::Vector4d& orientation_xyzw, const char* field);
 

@@ -173,7 +173,7 @@ class PriorSearch {
   std::vector<std::uint8_t> refuted_at(std::uint32_t p, std::span<const std::uint32_t> places) const {
     std::vector<std::uint8_t> refuted(places.size(), 0);
     for (std::size_t q = 0; q < priors_.size(); ++q) {
-      const bool newer = priors_[q].captured_at > priors_[p].captured_at + parameters_.contemporary_tolerance;
+      const bool newer = between(priors_[p].captured_at, priors_[q].captured_at) > parameters_.contemporary_tolerance;
       const bool same_time_as_scan = epochs_[q] == Epoch::contemporary;
       if (q == p || !(newer || same_time_as_scan)) continue;
       const Answers answers = asking_.ask_at(priors_[q], priors_[p], places);

@@ -38,7 +38,7 @@ bool is_large_enough(const Rule& rule, const Change& change) {
 }
 
 bool lasts(const Persistence& persistence, const Track& track) {
-  const std::chrono::duration<double> age = track.last_seen_at - track.first_seen_at;
+  const std::chrono::duration<double> age = between(track.first_seen_at, track.last_seen_at);
   return seen_of_last(track, persistence.of) >= persistence.scans && age.count() >= persistence.seconds;
 }
 

@@ -79,7 +79,7 @@ class Judge {
   bool is_contradicted(const std::vector<std::uint32_t>& cluster, const ScanView& scan) const {
     constexpr Duration kVisit = std::chrono::hours(1);
     return std::any_of(asked_.begin(), asked_.end(), [&](const ScanView& other) {
-      return &other != &scan && other.captured_at + kVisit >= scan.captured_at &&
+      return &other != &scan && between(other.captured_at, scan.captured_at) <= kVisit &&
              shows(other, view_, cluster, parameters_);
     });
   }

@@ -94,6 +94,22 @@ class Rfc3339Parser {
 
 }  // namespace
 
+Duration between(Time from, Time to) {
+  Duration::rep difference = 0;
+  const bool reaches =
+      !__builtin_sub_overflow(to.time_since_epoch().count(), from.time_since_epoch().count(), &difference);
+  if (!reaches || Duration(difference) == Duration::min()) return to > from ? Duration::max() : -Duration::max();
+  return Duration(difference);
+}
+
+Time shifted(Time time, Duration by) {
+  Duration::rep sum = 0;
+  if (__builtin_add_overflow(time.time_since_epoch().count(), by.count(), &sum)) {
+    return by > Duration::zero() ? Time::max() : Time::min();
+  }
+  return Time(Duration(sum));
+}
+
 Time parse_rfc3339(std::string_view text) { return Rfc3339Parser(text).parse(); }
 
 std::string format_rfc3339(Time time) {

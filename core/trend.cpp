@@ -50,7 +50,7 @@ Line fit_line(std::span<const Sample> samples) {
   return line;
 }
 
-double days_since(Time start, Time at) { return Days(at - start).count(); }
+double days_since(Time start, Time at) { return Days(between(start, at)).count(); }
 
 /// The two-sided 95 % point of Student's t: Abramowitz and Stegun 26.7.5. Within 1 % from 3 degrees of freedom on.
 double student95(double degrees) {
@@ -76,7 +76,9 @@ std::optional<Zero> zero_of(const Line& line) {
 std::optional<Time> time_at(Time start, double days) {
   constexpr double kMost_days = 36525.0;  // what lies beyond a century says nothing
   if (!(std::abs(days) < kMost_days)) return std::nullopt;
-  return start + std::chrono::duration_cast<Duration>(Days(days));
+  const auto by = std::chrono::duration_cast<Duration>(Days(days));
+  const Time at = shifted(start, by);
+  return between(start, at) == by ? std::optional(at) : std::nullopt;
 }
 
 std::optional<double> threshold_of(const LevelThresholds& thresholds, Level level) {
@@ -116,7 +118,7 @@ std::vector<Velocity> velocities(std::span<const TrendValue> series, const Veloc
   std::vector<Sample> samples;
   std::size_t first = 0;
   for (std::size_t i = 0; i < series.size(); ++i) {
-    while (series[first].at < series[i].at - parameters.window) ++first;
+    while (between(series[first].at, series[i].at) > parameters.window) ++first;
     if (i + 1 - first < least) continue;
     samples.clear();
     for (std::size_t k = first; k <= i; ++k)

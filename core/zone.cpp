@@ -101,10 +101,12 @@ void check_prism(const Prism& prism) {
       std::all_of(polygon.begin(), polygon.end(), [](const Eigen::Vector2d& p) { return p.allFinite(); });
   if (polygon.size() < 3 || polygon.size() > kMostCorners || !finite) {
     errors.push_back({"polygon_m", "must have 3 to 1000 corners, each [x, y]"});
-  } else if (area_m2(polygon) < kLeastArea_m2) {
-    errors.push_back({"polygon_m", "must enclose an area"});
+  } else if (polygon.front() == polygon.back()) {
+    errors.push_back({"polygon_m", "must not repeat the first corner; the last side leads back to it by itself"});
   } else if (crosses_itself(polygon)) {
     errors.push_back({"polygon_m", "must not cross or touch itself; give the corners in their order around the zone"});
+  } else if (area_m2(polygon) < kLeastArea_m2) {
+    errors.push_back({"polygon_m", "must enclose an area"});
   }
   if (!std::isfinite(prism.z_min_m)) errors.push_back({"z_min_m", "must be finite"});
   if (!std::isfinite(prism.z_max_m)) errors.push_back({"z_max_m", "must be finite"});

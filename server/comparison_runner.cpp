@@ -63,7 +63,7 @@ std::vector<bool> normal_together(std::span<const LoadedScan> scans, std::span<c
   std::vector<bool> result;
   for (std::size_t p = 0; p < scans.size(); ++p) {
     const auto belongs = [&](std::size_t q) {
-      const Duration earlier = scans[p].captured_at - scans[q].captured_at;
+      const Duration earlier = between(scans[q].captured_at, scans[p].captured_at);
       return earlier < Duration::zero() || (learned.contains(priors[q].scan) && earlier <= kOneTime);
     };
     bool together = true;
@@ -129,6 +129,7 @@ void ComparisonRunner::run(const Job& job, tbb::task_arena& arena) {
   progress.set(0.1);
 
   const Choice choice = choose(subject, scan, arena);
+  warn_of_named(subject, choice, result);
   result.timings_ms["choose"] = watch.lap_ms();
   progress.set(0.2);
 
@@ -206,7 +207,7 @@ ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const 
   });
   std::vector<PriorCandidate> candidates;
   for (const ScanRecord& offered : choice.offered) {
-    const bool fits = !refined || offered.registration.state != RegistrationState::bad;
+    const bool fits = !refined || offered.registration.state != RegistrationState::bad || is_explicit(reference);
     candidates.push_back(
         {.world_from_sensor = refined ? local_pose(offered, subject.site) : reported_local_pose(offered, subject.site),
          .captured_at = offered.captured_at,
@@ -219,6 +220,21 @@ ComparisonRunner::Choice ComparisonRunner::choose(const Subject& subject, const 
   choice.assessments = arena.execute(
       [&] { return choose_priors(sample_m, scan.world_from_sensor, scan.captured_at, candidates, config_.choice); });
   return choice;
+}
+
+void ComparisonRunner::warn_of_named(const Subject& subject, const Choice& choice, ComparisonResult& result) {
+  if (!is_explicit(subject.comparison.reference)) return;
+  for (std::size_t i = 0; i < choice.offered.size(); ++i) {
+    const ScanRecord& named = choice.offered[i];
+    const std::string name = "Scan " + std::to_string(named.id.value);
+    if (!choice.assessments[i].chosen) {
+      result.warnings.push_back(name + " was asked for and is not used: " + choice.assessments[i].reason + ".");
+    } else if (refines_poses(subject.comparison.parameters) && named.registration.state == RegistrationState::bad) {
+      result.warnings.push_back(name +
+                                " does not fit onto the earlier ones: its registration is bad. As it was asked for, it "
+                                "is used at its pose as reported.");
+    }
+  }
 }
 
 ComparisonRunner::LoadedPriors ComparisonRunner::load_priors(const Subject& subject, const Choice& choice,
@@ -280,9 +296,8 @@ void ComparisonRunner::commit(const Job& job, const Subject& subject, Comparison
   if (!is_first) return;
   written.keep();
   log_registration(subject.scan, result);
-  spdlog::log(result.changes.empty() ? spdlog::level::debug : spdlog::level::info,
-              "scan {} compared with {} others in {:.0f} ms: {} changes", subject.scan.id.value, result.priors.size(),
-              result.timings_ms.at("total"), result.changes.size());
+  spdlog::info("comparison {}: scan {} compared with {} others in {:.0f} ms: {} changes", job.comparison.value,
+               subject.scan.id.value, result.priors.size(), result.timings_ms.at("total"), result.changes.size());
 }
 
 }  // namespace raywatch

@@ -44,6 +44,8 @@ class ComparisonRunner {
   /// Refines the scan's pose, the first time that it is compared.
   void register_scan(Subject& subject, LoadedScan& scan, tbb::task_arena& arena, ComparisonResult& result) const;
   Choice choose(const Subject& subject, const LoadedScan& scan, tbb::task_arena& arena) const;
+  /// Scans that were asked for by name are used as they are, or it is said why not.
+  static void warn_of_named(const Subject& subject, const Choice& choice, ComparisonResult& result);
   LoadedPriors load_priors(const Subject& subject, const Choice& choice, tbb::task_arena& arena,
                            ComparisonResult& result) const;
   /// Asks the scan what watching must know of it, when this is a watching comparison.

@@ -38,8 +38,10 @@ constexpr std::chrono::seconds kStopPatience{3};
 
 unsigned cores() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-HttpConfig with_spool(HttpConfig http, const std::filesystem::path& data_dir) {
-  if (http.spool_dir.empty()) http.spool_dir = data_dir / "spool";
+HttpConfig http_config(const DaemonConfig& config) {
+  HttpConfig http = config.http;
+  if (http.spool_dir.empty()) http.spool_dir = config.data_dir / "spool";
+  http.public_url = config.delivery.public_url;
   return http;
 }
 
@@ -83,7 +85,7 @@ struct Daemon::Impl {
         retention(store, config.retention, [this](ScanId scan) { cache.forget(scan); }),
         caretaker_thread(caretaker, retention, now),
         deliverer(store, config.delivery, now),
-        http(with_spool(config.http, config.data_dir),
+        http(http_config(config),
              {store, commands(), [this] { return status(); }, now,
               [](const std::string& failure) { spdlog::error("{}", failure); }, config.retention.defaults}) {
     for (const FolderConfig& folder : config.folders) {
@@ -97,6 +99,7 @@ struct Daemon::Impl {
 
   Commands commands();
   UploadResult ingest_file(const Upload& upload);
+  UploadResult receive(const Upload& upload);
   ComparisonRecord compare_again(ScanId scan, const Reference& reference, const CompareParameters& parameters);
   bool wait_for_scan(ScanId scan, std::chrono::milliseconds patience);
   void delete_scan(ScanId scan);
@@ -127,7 +130,7 @@ struct Daemon::Impl {
 };
 
 Commands Daemon::Impl::commands() {
-  return {.ingest = [this](const Upload& upload) { return ingest_file(upload); },
+  return {.ingest = [this](const Upload& upload) { return receive(upload); },
           .compare = [this](ScanId scan, const Reference& reference,
                             const CompareParameters& parameters) { return compare_again(scan, reference, parameters); },
           .wait_for_scan = [this](ScanId scan,
@@ -144,6 +147,17 @@ UploadResult Daemon::Impl::ingest_file(const Upload& upload) {
   if (result.already_stored) return result;
   scans_ingested += result.scans.size();
   signal.notify();
+  return result;
+}
+
+/// What is uploaded; of files in folders their thread says more.
+UploadResult Daemon::Impl::receive(const Upload& upload) {
+  UploadResult result = ingest_file(upload);
+  if (result.already_stored) return result;
+  for (const ScanRecord& scan : result.scans) {
+    spdlog::info("scan {} of sensor {} stored: {} points, captured at {}", scan.id.value, *upload.hints.sensor,
+                 scan.points, format_rfc3339(scan.captured_at));
+  }
   return result;
 }
 

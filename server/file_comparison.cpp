@@ -75,10 +75,11 @@ std::vector<Time> capture_times(const std::vector<FileScan>& scans, Duration tol
   if (!scan_time) {
     Time latest{};
     for (const FileScan& prior : scans) latest = std::max(latest, prior.captured_at.value_or(Time{}));
-    scan_time = latest + apart;
+    scan_time = shifted(latest, apart);
   }
   std::vector<Time> times = {*scan_time};
-  for (std::size_t i = 1; i < scans.size(); ++i) times.push_back(scans[i].captured_at.value_or(*scan_time - apart));
+  for (std::size_t i = 1; i < scans.size(); ++i)
+    times.push_back(scans[i].captured_at.value_or(shifted(*scan_time, -apart)));
   return times;
 }
 

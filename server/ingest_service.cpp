@@ -1,5 +1,7 @@
 #include "server/ingest_service.hpp"
 
+#include <cstdio>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -41,6 +43,14 @@ SensorAndSite find_sensor_and_site(const Snapshot& snapshot, const std::string& 
   std::optional<Site> site = find_site(snapshot, sensor->site);
   if (!site) throw NotFound("the site of sensor \"" + name + "\" does not exist");
   return {std::move(*sensor), std::move(*site)};
+}
+
+/// The pose of what says nothing of its own: the sensor's; of bytes that are stored already, the one that they got
+/// then.
+std::optional<Pose> fixed_pose_for(const Snapshot& snapshot, const Upload& upload, const Sensor& sensor) {
+  if (!upload.hints.captured_at) return sensor.pose;
+  const std::optional<ScanRecord> stored = find_scan(snapshot, sensor.id, *upload.hints.captured_at);
+  return stored && stored->sha256 == upload.sha256 ? stored->pose : sensor.pose;
 }
 
 /// The words suit whoever uploads and whoever puts files into a folder.
@@ -87,6 +97,17 @@ ArrivingScan arriving_scan(DecodedScan decoded, const Sensor& sensor, const std:
   return scan;
 }
 
+/// Points that are nowhere lie together, too.
+bool lie_together(const PointCloud& a, const PointCloud& b) {
+  constexpr float kSamePlace_m = 0.01f;
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i].allFinite() != b[i].allFinite()) return false;
+    if (a[i].allFinite() && (a[i] - b[i]).norm() > kSamePlace_m) return false;
+  }
+  return true;
+}
+
 /// The stored scans, when all of them are there with the same bytes.
 /// @throws Conflict when one is there with other bytes.
 std::optional<std::vector<ScanRecord>> find_stored(const Snapshot& snapshot, const std::vector<ArrivingScan>& scans) {
@@ -102,6 +123,35 @@ std::optional<std::vector<ScanRecord>> find_stored(const Snapshot& snapshot, con
   }
   if (stored.size() != scans.size()) return std::nullopt;
   return stored;
+}
+
+/// What makes a scan another one than the stored one of the same bytes, if anything does.
+std::optional<FieldError> difference(const ArrivingScan& scan, const ScanRecord& stored, const Payloads& payloads) {
+  constexpr double kSamePosition_m = 1e-4, kSameAngle_rad = 1e-5;  // poses are rounded when they are written
+  const std::string name = "scan " + std::to_string(stored.id.value);
+  const double shift_m = (scan.record.pose.position_m - stored.pose.position_m).norm();
+  const double turn_rad = angle_between_rad(scan.record.pose, stored.pose);
+  if (shift_m > kSamePosition_m || turn_rad > kSameAngle_rad) {
+    char text[80];
+    std::snprintf(text, sizeof text, "%.4g m and %.4g degrees", shift_m, turn_rad * 180.0 / std::numbers::pi);
+    return FieldError{"pose", "differs from that of " + name + " by " + text};
+  }
+  if (lie_together(scan.points, payloads.scan_points(stored.payload))) return std::nullopt;
+  return FieldError{"frame", "is another one than that of " + name + ", or the format is: the points lie elsewhere"};
+}
+
+/// @throws Conflict when an arriving scan has the bytes of a stored one, but another pose or frame.
+void refuse_other_placement(const std::vector<ArrivingScan>& scans, const std::vector<ScanRecord>& stored,
+                            const Payloads& payloads) {
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const std::optional<FieldError> found = difference(scans[i], stored[i], payloads);
+    if (!found) continue;
+    const std::string id = std::to_string(stored[i].id.value);
+    throw Conflict("scan " + id + " is of the same sensor and time (" + format_rfc3339(stored[i].captured_at) +
+                       ") and has the same bytes; the " + found->field + " " + found->message +
+                       ". Nothing was changed: delete scan " + id + " first, or give another capture time",
+                   {*found});
+  }
 }
 
 /// Stores the records, their comparisons with what was before and with what is normal, and what they show about the
@@ -153,13 +203,13 @@ IngestService::IngestService(Store& store, IndexCache& cache, const IngestConfig
 UploadResult IngestService::ingest(const Upload& upload) {
   const Slot slot(decoders_);
   const Time now = now_();
+  ScanHints hints = upload.hints;
   const SensorAndSite place = store_.read([&](const Snapshot& snapshot) {
     refuse_when_full(snapshot, config_.queue_limit);
-    return find_sensor_and_site(snapshot, upload.hints.sensor.value_or(""));
+    SensorAndSite found = find_sensor_and_site(snapshot, upload.hints.sensor.value_or(""));
+    hints.fixed_pose = fixed_pose_for(snapshot, upload, found.sensor);
+    return found;
   });
-
-  ScanHints hints = upload.hints;
-  hints.fixed_pose = place.sensor.pose;
   const CompareParameters defaults = default_parameters(place.site.profile, Grouping::consensus);
   std::vector<DecodedScan> decoded = read_scan_file(upload.file, hints, config_.file_limits);
   std::vector<ArrivingScan> scans;
@@ -174,7 +224,10 @@ UploadResult IngestService::ingest(const Upload& upload) {
   decoded.clear();
 
   const auto find_in_store = [&](const Snapshot& snapshot) { return find_stored(snapshot, scans); };
-  if (auto stored = store_.read(find_in_store)) return {std::move(*stored), true};
+  if (auto stored = store_.read(find_in_store)) {
+    refuse_other_placement(scans, *stored, store_.payloads());
+    return {std::move(*stored), true};
+  }
 
   UnownedPayloads written(store_.payloads());
   for (ArrivingScan& scan : scans) {
@@ -187,7 +240,10 @@ UploadResult IngestService::ingest(const Upload& upload) {
     refuse_when_full(transaction, config_.queue_limit);
     return {insert_all(transaction, scans, defaults, now), false};
   });
-  if (result.already_stored) return result;
+  if (result.already_stored) {
+    refuse_other_placement(scans, result.scans, store_.payloads());
+    return result;
+  }
   written.keep();
   if (scans.front().index) {
     ArrivingScan& scan = scans.front();

@@ -33,8 +33,8 @@ class IngestService {
 
   /// When it returns, every scan of the file is on the disk, and so is the job to compare it with what was before.
   /// @throws NotFound for the sensor; InvalidInput, UnsupportedFormat, TooLarge for the file; Conflict when the sensor
-  /// has
-  ///   another scan of that time; Overloaded; DiskFull. Nothing is stored then.
+  ///   has another scan of that time, or the same bytes with another pose or frame; Overloaded; DiskFull. Nothing is
+  ///   stored then.
   UploadResult ingest(const Upload& upload);
 
  private:

@@ -12,11 +12,6 @@ namespace {
 /// Bad ones are passed over only until so many are offered.
 constexpr std::size_t kMaxOffered = 2 * kMaxVantages;
 
-/// `time - by`, or the first moment there is.
-Time earlier(Time time, Duration by) {
-  return time.time_since_epoch() < Time::min().time_since_epoch() + by ? Time::min() : time - by;
-}
-
 /// What one reference offers from one vantage, and from names.
 class Resolver {
  public:
@@ -24,8 +19,8 @@ class Resolver {
       : snapshot_(snapshot), scan_(scan), site_(site), limits_(limits) {}
 
   std::vector<ScanRecord> operator()(const PreviousReference&) const {
-    const Time before = earlier(scan_.captured_at, limits_.contemporary_tolerance);
-    const Time not_before = earlier(scan_.captured_at, limits_.previous_limit);
+    const Time before = shifted(scan_.captured_at, -limits_.contemporary_tolerance);
+    const Time not_before = shifted(scan_.captured_at, -limits_.previous_limit);
     return from_vantages(
         not_before, [&](const Vantage& vantage) { return latest_scan(snapshot_, vantage.id, not_before, before); });
   }

@@ -32,7 +32,7 @@ std::string alert_title(const Snapshot& snapshot, const Track& track, const Rule
 
 std::string opening_note(const Track& track, const Rule& rule) {
   char text[160];
-  const std::chrono::duration<double> age = track.last_seen_at - track.first_seen_at;
+  const std::chrono::duration<double> age = between(track.first_seen_at, track.last_seen_at);
   std::snprintf(text, sizeof text, "Seen in %u of the last %u scans that could see the place, over %.0f s.",
                 seen_of_last(track, rule.persistence.of), std::min(rule.persistence.of, track.remembered), age.count());
   return text;
@@ -110,7 +110,7 @@ void TrackKeeper::begin(const Places& changes) {
 void TrackKeeper::link_to_other_place(const TrackRecord& record) {
   const Track& track = record.track;
   const std::vector<TrackRecord> recent =
-      tracks_begun(transaction_, turn_.site, turn_.captured_at - options_.moved_within, turn_.captured_at);
+      tracks_begun(transaction_, turn_.site, shifted(turn_.captured_at, -options_.moved_within), turn_.captured_at);
   const TrackRecord* best = nullptr;
   for (const TrackRecord& other : recent) {
     if (other.track.kind == track.kind || other.track.state != TrackState::open || other.moved_from || other.moved_to ||

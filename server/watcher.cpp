@@ -136,7 +136,7 @@ bool Watcher::is_late(const Snapshot& snapshot, const ScanRecord& scan) const {
   const std::optional<Time> of_sensor = tracked_until(snapshot, scan.sensor);
   const std::optional<Time> of_site = tracked_until(snapshot, scan.site);
   return (of_sensor && scan.captured_at <= *of_sensor) ||
-         (of_site && scan.captured_at < *of_site - config_.late_tolerance);
+         (of_site && between(scan.captured_at, *of_site) > config_.late_tolerance);
 }
 
 WatchRole Watcher::role_of(const Snapshot& snapshot, const WatchedComparison& watched) const {

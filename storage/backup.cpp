@@ -1,6 +1,9 @@
 #include "storage/backup.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <string>
 
 #include "core/error.hpp"
 #include "storage/data_dir.hpp"
@@ -29,6 +32,19 @@ void require_usable(const std::filesystem::path& directory, const std::filesyste
     throw InvalidInput("the backup needs a directory of its own: " + directory.string() + " exists and is not empty",
                        {{"directory", "must not exist or be empty"}});
   }
+}
+
+/// Who asks for the backup chose where it lies.
+void make_target(const std::filesystem::path& directory) {
+  try {
+    make_directories_durably(directory);
+  } catch (const DiskFull&) {
+    throw;
+  } catch (const StorageError& error) {
+    throw InvalidInput(error.what(), {{"directory", "cannot be made: " + std::string(error.what())}});
+  }
+  if (access(directory.c_str(), W_OK | X_OK) == 0) return;
+  throw InvalidInput("nothing may be written to " + directory.string(), {{"directory", "must be writable"}});
 }
 
 std::uint64_t bytes_with_log(const std::filesystem::path& file) {
@@ -78,7 +94,7 @@ void copy_store(Database& metadata, PayloadFiles& files, const std::filesystem::
                 std::uint64_t min_free_bytes) {
   require_usable(directory, files.data_dir());
   const std::filesystem::path target = std::filesystem::absolute(directory).lexically_normal();
-  make_directories_durably(target);
+  make_target(target);
   require_room(target, {.bytes = bytes_to_copy(metadata, files), .reserve_bytes = min_free_bytes});
   try {
     copy_all(metadata, files, target);

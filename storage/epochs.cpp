@@ -65,7 +65,7 @@ void add_next_references(const Snapshot& snapshot, const ScheduleRecord& schedul
   std::optional<EpochRecord> epoch = latest_epoch(snapshot, search);
   if (reference.policy == ReferencePolicy::accepted || !epoch) return;
   // Of the days before the latest all are needed yet, and one day more, as clocks change.
-  const Time oldest = epoch->to - std::chrono::days(reference.days > 0 ? reference.days + 1 : 0);
+  const Time oldest = shifted(epoch->to, -std::chrono::days(reference.days > 0 ? reference.days + 1 : 0));
   for (; epoch && epoch->to >= oldest; epoch = latest_epoch(snapshot, search)) {
     add_scans_of(snapshot, epoch->id, all);
     search.until = epoch->to - Duration(1);

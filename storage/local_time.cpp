@@ -2,6 +2,8 @@
 
 #include <date/tz.h>
 
+#include <algorithm>
+
 #include "core/error.hpp"
 
 namespace raywatch {
@@ -13,6 +15,12 @@ const date::time_zone& zone_named(const std::string& time_zone) {
   } catch (const std::runtime_error&) {
     throw InvalidInput("The time zone " + time_zone + " is not known on this machine; install tzdata.");
   }
+}
+
+/// Local times reach farther than moments do: what lies beyond is the last or first one there is.
+Time within_reach(date::sys_seconds time) {
+  return std::clamp(time, std::chrono::ceil<std::chrono::seconds>(Time::min()),
+                    std::chrono::floor<std::chrono::seconds>(Time::max()));
 }
 
 }  // namespace
@@ -32,7 +40,7 @@ ZoneClock zone_clock(const std::string& time_zone) {
               },
           // Of a skipped time, `choose` takes the moment at which the clocks go forward.
           .to_utc = [&zone](LocalSeconds local) -> Time {
-            return zone.to_sys(date::local_seconds(local.time_since_epoch()), date::choose::earliest);
+            return within_reach(zone.to_sys(date::local_seconds(local.time_since_epoch()), date::choose::earliest));
           }};
 }
 

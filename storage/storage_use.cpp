@@ -72,7 +72,9 @@ EventsUse events_use(const Snapshot& snapshot) {
 std::optional<Growth> growth_of(const Snapshot& snapshot, SiteId site, Time now) {
   constexpr std::chrono::days kWindow{7};
   constexpr std::uint64_t kMostScans = 10'000;
-  constexpr std::chrono::seconds kShortest{60};
+  // Scans often come in turns of the day, or many at once when somebody begins. Where even an hour brings thousands, it
+  // tells.
+  constexpr std::chrono::hours kShortest{24}, kShortestOfMany{1};
   Statement rows(database_of(snapshot),
                  "SELECT received_at, stored_bytes + (SELECT ifnull(sum(c.stored_bytes), 0) FROM comparisons AS c "
                  "INDEXED BY comparisons_by_scan WHERE c.scan = scans.id) FROM scans INDEXED BY scans_by_receipt "
@@ -83,7 +85,8 @@ std::optional<Growth> growth_of(const Snapshot& snapshot, SiteId site, Time now)
     growth.since = rows.take<Time>();
     growth.bytes += rows.take<std::uint64_t>();
   }
-  if (growth.scans < 2 || now - growth.since < kShortest) return std::nullopt;
+  const auto shortest = growth.scans == kMostScans ? kShortestOfMany : kShortest;
+  if (growth.scans < 2 || now - growth.since < shortest) return std::nullopt;
   return growth;
 }
 

@@ -30,15 +30,14 @@ Json render_day(const CalendarDay& day, const SpanCounts& counts) {
 HttpAnswer get_calendar(Call& call) {
   for (const char* name : {"site", "from", "to"}) call.query.require(name);
   const auto site_name = call.query.text("site");
-  const auto from = call.query.time("from");
-  const auto to = call.query.time("to");
-  if (from && to && *from >= *to) call.query.fail("to", "must be later than 'from'");
-  if (from && to && *to - *from > kLongestRange) call.query.fail("to", "must be at most 400 days after 'from'");
+  const TimeRange range = call.query.time_range();
+  if (range.from && range.to && between(*range.from, *range.to) > kLongestRange)
+    call.query.fail("to", "must be at most 400 days after 'from'");
   call.query.finish();
   return json_answer(call.services.store.read([&](const Snapshot& snapshot) {
     const Site site = site_named(snapshot, *site_name);
     Json days = Json::array();
-    for (const CalendarDay& day : days_between(*from, *to, site.time_zone)) {
+    for (const CalendarDay& day : days_between(*range.from, *range.to, site.time_zone)) {
       days.push_back(render_day(day, counts_between(snapshot, site.id, day.from, day.to)));
     }
     return Json{{"site", site.name}, {"time_zone", site.time_zone}, {"days", std::move(days)}};

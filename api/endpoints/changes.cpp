@@ -27,8 +27,9 @@ HttpAnswer list_changes(Call& call) {
   const auto site_name = call.query.text("site");
   filter.kind = call.query.parsed("kind", parse_change_kind);
   filter.watching = call.query.parsed("reference", parse_lasting).value_or(false);
-  filter.from = call.query.time("from");
-  filter.to = call.query.time("to");
+  const TimeRange range = call.query.time_range();
+  filter.from = range.from;
+  filter.to = range.to;
   filter.min_volume_m3 = call.query.real("min_volume_m3", {.min = 0.0});
   const auto box_m = call.query.box("box");
   if (box_m && !site_name) call.query.fail("box", "needs 'site', in whose coordinates it stands");

@@ -1,5 +1,7 @@
 #include "storage/comparisons.hpp"
 
+#include <array>
+
 #include "api/call.hpp"
 #include "api/conditional.hpp"
 #include "api/endpoints/comparison_request.hpp"
@@ -7,6 +9,7 @@
 #include "api/json_body.hpp"
 #include "api/lookup.hpp"
 #include "api/render.hpp"
+#include "api/wait_preference.hpp"
 #include "core/profile.hpp"
 
 namespace raywatch::endpoints {
@@ -47,11 +50,14 @@ HttpAnswer create_comparison(Call& call) {
       call.services.store.read([&](const Snapshot& snapshot) { return parse_comparison_request(snapshot, body); });
   const ComparisonRecord comparison =
       call.services.commands.compare(request.scan, request.reference, request.parameters);
+  const auto wait = preferred_wait(call);
+  if (wait) wait_for_scans(call, std::array{request.scan}, *wait);
   const Json json = call.services.store.read([&](const Snapshot& snapshot) {
     return render_with_progress(call.services, snapshot, comparison_with(snapshot, comparison.id));
   });
   HttpAnswer answer = json_answer(json, 202);
   answer.set_header("Location", "/api/v1/comparisons/" + std::to_string(comparison.id.value));
+  if (wait) set_wait_applied(answer, *wait);
   return answer;
 }
 

@@ -58,9 +58,13 @@ HttpAnswer get_history(Call& call) {
   const auto point_m = call.query.vector3("point");
   const auto box_m = call.query.box("box");
   ScanFilter filter;
-  filter.from = call.query.time("from");
-  filter.to = call.query.time("to");
-  if (call.query.has("point") == call.query.has("box")) call.query.fail("point", "must be given, or else 'box'");
+  const TimeRange range = call.query.time_range();
+  filter.from = range.from;
+  filter.to = range.to;
+  if (call.query.has("point") == call.query.has("box")) {
+    call.query.fail("point",
+                    call.query.has("box") ? "give 'point' or 'box', not both" : "must be given, or else 'box'");
+  }
   if (box_m && (box_m->sizes().array() <= 0.0).any()) call.query.fail("box", "must have some size");
   call.query.finish();
 

@@ -15,7 +15,7 @@ namespace {
 struct GivenFilter {
   std::optional<std::string> site, sensor;
   std::optional<std::int64_t> vantage;
-  std::optional<Time> from, to;
+  TimeRange range;
   std::optional<Eigen::Vector3d> near_m;
   std::optional<double> radius_m;
 };
@@ -25,8 +25,7 @@ GivenFilter parse_filter(Query& query) {
   given.site = query.text("site");
   given.sensor = query.text("sensor");
   given.vantage = query.integer("vantage", {.min = 1});
-  given.from = query.time("from");
-  given.to = query.time("to");
+  given.range = query.time_range();
   given.near_m = query.vector3("near");
   given.radius_m = query.real("radius_m", {.min = 0.0, .max = 1e6});
   if (given.near_m && !given.site) query.fail("near", "needs 'site', in whose coordinates it stands");
@@ -43,8 +42,8 @@ ScanFilter resolve(const Snapshot& snapshot, const GivenFilter& given) {
   }
   if (given.sensor) filter.sensor = sensor_named(snapshot, *given.sensor).id;
   if (given.vantage) filter.vantage = VantageId{*given.vantage};
-  filter.from = given.from;
-  filter.to = given.to;
+  filter.from = given.range.from;
+  filter.to = given.range.to;
   filter.near_radius_m = given.radius_m.value_or(filter.near_radius_m);
   return filter;
 }

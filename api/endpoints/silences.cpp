@@ -29,11 +29,12 @@ GivenSilence parse_silence(const nlohmann::json& json) {
   given.sensor = body.text("sensor");
   if (const auto zone = body.integer("zone", {.min = 1})) given.zone = ZoneId{*zone};
   given.from = body.time("from");
-  given.until = body.time("until").value_or(Time{});
+  const auto until = body.time("until");
+  given.until = until.value_or(Time{});
   const Signature signature = parse_signature(body);
   given.by = signature.by;
   given.note = signature.note;
-  if (given.from && *given.from >= given.until) body.fail("until", "must be later than 'from'");
+  if (given.from && until && *given.from >= *until) body.fail("until", "must be later than 'from'");
   body.finish();
   errors.throw_if_any();
   return given;
@@ -50,7 +51,13 @@ HttpAnswer create_silence(Call& call) {
   const Json json = call.services.store.write([&](Transaction& transaction) {
     SilenceRecord record{.site = site_named(transaction, given.site).id, .by = given.by, .note = given.note};
     record.silence = {.zone = given.zone, .from = from, .until = given.until};
-    if (given.sensor) record.silence.sensor = sensor_named(transaction, *given.sensor).id;
+    if (given.sensor) {
+      const Sensor sensor = sensor_named(transaction, *given.sensor);
+      if (sensor.site != record.site) {
+        throw InvalidInput("The sensor is of another site.", {{"sensor", "is of another site"}});
+      }
+      record.silence.sensor = sensor.id;
+    }
     if (given.zone && zone_with(transaction, *given.zone).site != record.site) {
       throw InvalidInput("The zone is of another site.", {{"zone", "is of another site"}});
     }

@@ -35,8 +35,9 @@ GivenSeries parse_series(Query& query) {
   if (const auto schedule = query.integer("schedule", {.min = 1})) given.schedule = ScheduleId{*schedule};
   if (const auto zone = query.integer("zone", {.min = 1})) given.zone = ZoneId{*zone};
   given.figure = query.parsed("figure", parse_survey_figure).value_or(given.figure);
-  given.from = query.time("from").value_or(given.from);
-  given.to = query.time("to").value_or(given.to);
+  const TimeRange range = query.time_range();
+  given.from = range.from.value_or(given.from);
+  given.to = range.to.value_or(given.to);
   given.cumulative = query.parsed("cumulative", parse_flag);
   if (const auto hours = query.real("window_h", {.min = 1.0, .max = 8784.0})) {
     given.velocity.window = duration_of_seconds(3600.0 * *hours);

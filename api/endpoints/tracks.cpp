@@ -12,8 +12,9 @@ HttpAnswer list_tracks(Call& call) {
   TrackFilter filter;
   filter.state = call.query.parsed("state", parse_track_state);
   filter.kind = call.query.parsed("kind", parse_change_kind);
-  filter.from = call.query.time("from");
-  filter.to = call.query.time("to");
+  const TimeRange range = call.query.time_range();
+  filter.from = range.from;
+  filter.to = range.to;
   const PageRequest page = call.query.page();
   call.query.finish();
   return json_answer(call.services.store.read([&](const Snapshot& snapshot) {

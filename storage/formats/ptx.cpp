@@ -47,6 +47,9 @@ class PtxLines {
   std::size_t words() const { return words_.size(); }
   std::size_t bytes_left() const { return lines_.bytes_left(); }
   std::size_t number() const { return lines_.number(); }
+  Pose checked(const Eigen::Vector3d& position_m, const Eigen::Quaterniond& orientation) const {
+    return checked_pose_at(at_line(lines_.number()) + "the pose above", position_m, orientation.coeffs());
+  }
   [[noreturn]] void refuse(const std::string& message) const { throw InvalidInput(at_line(lines_.number()) + message); }
 
  private:
@@ -84,7 +87,7 @@ Pose read_pose(PtxLines& lines) {
   if (off_orthonormal > kAxisTolerance || rotation.determinant() < 0.0) {
     lines.refuse("the transformation matrix above is no rotation");
   }
-  return {Eigen::Quaterniond(rotation).normalized(), position_m};
+  return lines.checked(position_m, Eigen::Quaterniond(rotation).normalized());
 }
 
 /// The line with the number of columns has been read.

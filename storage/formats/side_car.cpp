@@ -48,11 +48,10 @@ void check_members(const Json& object, std::span<const std::string_view> known, 
     const std::string& key = item.key();
     if (std::ranges::find(known, std::string_view(key)) != known.end()) continue;
     const std::string_view shortened = std::string_view(key).substr(0, 64);
-    const auto nearest =
-        std::ranges::min(known, {}, [&](std::string_view name) { return edit_distance(shortened, name); });
     const std::string name =
         parent.member.empty() ? std::string(shortened) : parent.member + "." + std::string(shortened);
-    Place{parent.file, name}.refuse("unknown member; did you mean " + shown(nearest) + "?");
+    Place{parent.file, name}.refuse("unknown member" +
+                                    suggestion(shortened, std::vector<std::string>(known.begin(), known.end())));
   }
 }
 

@@ -229,6 +229,18 @@ TEST_CASE("a stored scan is compared with what is normal, and that moves no trac
   CHECK_EQ(api.get("/api/v1/tracks").json()["items"][0]["seen"], 1);
 }
 
+TEST_CASE("with Prefer: wait a comparison that is asked for is answered when it is done") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  api.upload(0);
+  const json scan = api.upload(1)["id"];
+  const Reply reply = api.post("/api/v1/comparisons", {{"scan", scan}}, {{"Prefer", "wait=50"}});
+  CHECK_EQ(reply.status, 202);
+  CHECK_EQ(reply.header("Preference-Applied"), "wait=50");
+  CHECK_EQ(reply.json()["state"], "done");
+  CHECK_EQ(api.post("/api/v1/comparisons", {{"scan", scan}}).header("Preference-Applied"), "");
+}
+
 TEST_CASE("scans of different sites are not compared") {
   ApiFixture api;
   api.make_site_and_sensor();

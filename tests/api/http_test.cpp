@@ -215,6 +215,22 @@ TEST_CASE("a daemon on loopback answers under loopback's names only") {
   CHECK_EQ(status_of(raw_answer(api, "GET /healthz HTTP/1.1\r\nConnection: close\r\n\r\n")), 400);
 }
 
+TEST_CASE("behind a proxy the public address is the daemon's own, however the proxy passes it on") {
+  DaemonConfig config;
+  config.delivery.public_url = "https://Watch.example.com/";
+  ApiFixture api(config);
+  CHECK_EQ(api.get("/api/v1/sites", {{"Host", "watch.example.com"}}).status, 200);
+  CHECK_EQ(api.get("/api/v1/sites", {{"Host", "evil.example.com"}}).status, 403);
+  const auto make = [&](const std::string& name, const std::string& host, const std::string& origin) {
+    return api.post("/api/v1/sites", {{"name", name}}, {{"Host", host}, {"Origin", origin}}).status;
+  };
+  const std::string origin = "https://watch.example.com", loopback = "127.0.0.1:" + std::to_string(api.port());
+  CHECK_EQ(make("passed", "watch.example.com", origin), 201);
+  CHECK_EQ(make("rewritten", loopback, origin), 201);
+  CHECK_EQ(make("foreign", loopback, "https://watch.example.com.evil.example"), 403);
+  CHECK_EQ(make("foreign", loopback, "http://evil.example"), 403);
+}
+
 TEST_CASE("no address but loopback is listened on without being allowed to") {
   const TempDir folder;
   DaemonConfig config;
@@ -455,6 +471,7 @@ TEST_CASE("a running store is copied on request, into an empty directory only") 
   CHECK(std::filesystem::exists(api.folder() / "copy" / "raywatch.db"));
   CHECK_EQ(api.post("/api/v1/backup", {{"directory", directory}}).status, 422);
   CHECK_EQ(api.post("/api/v1/backup", {{"directory", "copy"}}).status, 422);
+  CHECK_NE(api.post("/api/v1/backup", {{"directory", "/proc/copy"}}).complaint_about("directory"), "");
   CHECK_EQ(api.post("/api/v1/backup", json::object()).complaint_about("directory"), "is required");
 }
 

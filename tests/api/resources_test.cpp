@@ -250,6 +250,12 @@ TEST_CASE("limits and cursors that are none are refused") {
     CHECK_EQ(reply.status, 422);
     CHECK_NE(reply.complaint_about("limit"), "");
   }
+  const auto complaint = [&](const std::string& limit) {
+    return api.get("/api/v1/sites?limit=" + limit).complaint_about("limit");
+  };
+  CHECK_EQ(complaint("100000000000000000000"), "must be at most 1000");
+  CHECK_EQ(complaint("-100000000000000000000"), "must be at least 1");
+  CHECK_EQ(complaint("1.5"), "must be a whole number");
   CHECK_EQ(api.get("/api/v1/sites?cursor=%F0%9F%90%A0nonsense").status, 422);
   CHECK_EQ(api.get("/api/v1/scans?cursor=AAAA").status, 422);
 }

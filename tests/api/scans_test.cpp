@@ -44,6 +44,8 @@ TEST_CASE("scans are listed newest first and found by sensor, time, vantage and 
   CHECK_EQ(found("?site=yard&near=49,0,0&radius_m=2"), std::vector{b_id});
   CHECK_EQ(found("?site=yard&near=11,0,0"), std::vector{c, a});
   CHECK_EQ(api.get("/api/v1/scans?near=1,2,3").status, 422);
+  const std::string range = "?from=2026-03-01T08:02:00Z&to=2026-03-01T08:01:00Z";
+  CHECK_EQ(api.get("/api/v1/scans" + range).complaint_about("to"), "must be later than 'from'");
   CHECK_EQ(api.get("/api/v1/scans?site=yard&near=1,2").complaint_about("near").empty(), false);
   CHECK_EQ(api.get("/api/v1/scans?radius_m=2").complaint_about("radius_m").empty(), false);
   CHECK_EQ(api.get("/api/v1/scans?site=nowhere").status, 404);

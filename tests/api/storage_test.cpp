@@ -101,6 +101,12 @@ TEST_CASE("a site has limits of its own: null is as for all sites, 0 none, and w
   CHECK_NE(api.patch("/api/v1/sites/yard", {{"retention", nullptr}}).complaint_about("retention"), "");
 }
 
+TEST_CASE("a limit that is misspelt is answered with the one that was meant") {
+  ApiFixture api;
+  const Reply reply = api.post("/api/v1/sites", {{"name", "yard"}, {"retention", {{"max_age", 1}}}});
+  CHECK_EQ(reply.complaint_about("retention.max_age"), "unknown member; did you mean 'max_age_days'?");
+}
+
 TEST_CASE("retention deletes what is too much, records it, and what others say about it stays") {
   StoredYard yard;
   const json last = yard.items("/api/v1/scans")[0];

@@ -88,6 +88,44 @@ TEST_CASE("other bytes for the same sensor and time are a conflict") {
   check_untouched(api, 1);
 }
 
+TEST_CASE("the same bytes with another pose or frame are a conflict that says what differs and what can be done") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const std::string points = "1 2 3\n4 5 6\n7 8 9.5\n", query = kQuery + "&format=xyz&pose=10,20,1.5,0,0,0,1";
+  const json first = api.upload_bytes(points, query).json();
+  CHECK_EQ(api.upload_bytes(points, query).status, 200);
+  CHECK_EQ(api.upload_bytes(points, query + ".0").status, 200);  // the same pose, written in another way
+
+  const Reply elsewhere = api.upload_bytes(points, kQuery + "&format=xyz&pose=10,20.5,1.5,0,0,0,1");
+  CHECK_EQ(elsewhere.status, 409);
+  CHECK_EQ(elsewhere.problem(), "conflict");
+  const std::string id = first["id"].dump();
+  CHECK_EQ(elsewhere.complaint_about("pose"), "differs from that of scan " + id + " by 0.5 m and 0 degrees");
+  CHECK_NE(elsewhere.json()["detail"].get<std::string>().find("delete scan " + id + " first"), std::string::npos);
+  const Reply turned = api.upload_bytes(points, kQuery + "&format=xyz&pose=10,20,1.5,0,0,1,0");
+  CHECK_EQ(turned.complaint_about("pose"), "differs from that of scan " + id + " by 0 m and 180 degrees");
+  const Reply in_world = api.upload_bytes(points, query + "&frame=world");
+  CHECK_EQ(in_world.status, 409);
+  CHECK_NE(in_world.complaint_about("frame"), "");
+  CHECK_EQ(api.get("/api/v1/scans/" + id).json()["pose"], first["pose"]);
+  check_untouched(api, 1);
+}
+
+TEST_CASE("what says nothing of its pose may come again after its sensor got another one") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  const auto put_sensor = [&](double x_m) {
+    api.patch("/api/v1/sensors/gate", {{"pose", {{"position_m", {x_m, 8, 9}}, {"orientation_xyzw", {0, 0, 0, 1}}}}});
+  };
+  const std::string points = "1 2 3\n4 5 6\n7 8 9.5\n", query = kQuery + "&format=xyz";
+  put_sensor(7);
+  const json first = api.upload_bytes(points, query).json();
+  put_sensor(70);
+  const Reply again = api.upload_bytes(points, query);
+  CHECK_EQ(again.status, 200);
+  CHECK_EQ(again.json()["pose"], first["pose"]);
+}
+
 TEST_CASE("a PTX file with several scans is answered with all of them") {
   ApiFixture api;
   api.make_site_and_sensor();
@@ -159,6 +197,7 @@ TEST_CASE("uploads that are not acceptable are refused by their reason and leave
       {"no pose anywhere", "1 2 3\n4 5 6\n", kQuery + "&format=xyz", 422, "invalid-input"},
       {"no time anywhere", pcd, "sensor=gate", 422, "invalid-input"},
       {"non-unit quaternion", pcd, kQuery + "&pose=1,2,3,0,0,0,2", 422, "invalid-input"},
+      {"position that is nowhere", pcd, kQuery + "&pose=1e30,2,3,0,0,0,1", 422, "invalid-input"},
       {"pose with six numbers", pcd, kQuery + "&pose=1,2,3,0,0,0", 422, "invalid-input"},
       {"time in the future", pcd, "sensor=gate&captured_at=2026-03-02T08:02:00Z", 422, "invalid-input"},
       {"unknown sensor", pcd, "sensor=nobody&captured_at=2026-03-01T08:00:00Z", 404, "not-found"},
@@ -231,6 +270,22 @@ TEST_CASE("a form that holds a file is not taken for the file, but any other typ
   CHECK_EQ(form.problem(), "unsupported-media-type");
   const Reply curl = api.upload_bytes(wall_pcd(), kQuery, {{"Content-Type", "application/x-www-form-urlencoded"}});
   CHECK_EQ(curl.status, 201);
+}
+
+TEST_CASE("content that is encoded in an unknown way, or not as it says, is refused") {
+  ApiFixture api;
+  api.make_site_and_sensor();
+  for (const char* encoding : {"zstd", "gzip, br", "compress", "vibration"}) {
+    CAPTURE(encoding);
+    const Reply reply = api.upload_bytes(wall_pcd(), kQuery, {{"Content-Encoding", encoding}});
+    CHECK_EQ(reply.status, 415);
+    CHECK_EQ(reply.problem(), "unsupported-media-type");
+  }
+  const Reply plain = api.upload_bytes(wall_pcd(), kQuery, {{"Content-Encoding", "gzip"}});
+  CHECK_EQ(plain.status, 400);
+  CHECK_NE(plain.json()["detail"].get<std::string>().find("is not gzip"), std::string::npos);
+  check_untouched(api, 0);
+  CHECK_EQ(api.upload_bytes(wall_pcd(), kQuery, {{"Content-Encoding", "identity"}}).status, 201);
 }
 
 TEST_CASE("a body over the limit is refused by its announced length") {

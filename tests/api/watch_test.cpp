@@ -82,6 +82,11 @@ TEST_CASE("a track is listed by kind and time, with its alerts and what it was m
   CHECK_EQ(yard.items("/api/v1/tracks?to=" + tracks[0]["first_seen_at"].get<std::string>()).size(), 0);
   CHECK_EQ(yard.items("/api/v1/tracks?from=" + tracks[0]["last_seen_at"].get<std::string>()).size(), 1);
   CHECK_NE(yard.get("/api/v1/tracks?kind=gone").complaint_about("kind"), "");
+  const std::string backwards = "from=2026-03-02T00:00:00Z&to=2026-03-01T00:00:00Z";
+  for (const std::string list : {"tracks?", "changes?", "history?site=yard&point=0,0,0&"}) {
+    CAPTURE(list);
+    CHECK_EQ(yard.get("/api/v1/" + list + backwards).complaint_about("to"), "must be later than 'from'");
+  }
 
   const std::string target = "/api/v1/tracks/" + tracks[0]["id"].dump();
   const json alerts = yard.get(target).json()["alerts"];
@@ -120,6 +125,8 @@ TEST_CASE("a calendar counts what happened on each day of the site's time zone")
   CHECK_EQ(yard.get(range + "2026-03-01T12:00:00Z").complaint_about("to"), "must be later than 'from'");
   CHECK_EQ(yard.get(range + "2028-03-01T12:00:00Z").complaint_about("to"), "must be at most 400 days after 'from'");
   CHECK_EQ(yard.get("/api/v1/calendar?site=yard").complaint_about("from"), "is required");
+  const std::string centuries = "/api/v1/calendar?site=yard&from=1700-01-01T00:00:00Z&to=2200-01-01T00:00:00Z";
+  CHECK_EQ(yard.get(centuries).complaint_about("to"), "must be at most 400 days after 'from'");
 }
 
 TEST_CASE("the evidence of a change is its points, what is around them, and the rays that went through its place") {
@@ -396,7 +403,9 @@ TEST_CASE("the history of a place says when it was free, occupied or out of sigh
   CHECK_EQ(box[1]["state"], "occupied");
   const std::string later = "&from=2026-03-01T08:02:00Z&to=2026-03-01T08:04:00Z";
   CHECK_EQ(yard.get("/api/v1/history?site=yard&point=95.5,200,1.5" + later).json()["intervals"].size(), 1);
-  CHECK_NE(yard.get("/api/v1/history?site=yard").complaint_about("point"), "");
+  CHECK_EQ(yard.get("/api/v1/history?site=yard").complaint_about("point"), "must be given, or else 'box'");
+  CHECK_EQ(yard.get("/api/v1/history?site=yard&point=1,1,1&box=1,1,1,2,2,2").complaint_about("point"),
+           "give 'point' or 'box', not both");
   CHECK_NE(yard.get("/api/v1/history?site=yard&box=1,1,1,1,2,2").complaint_about("box"), "");
   CHECK_EQ(yard.get("/api/v1/history?site=nowhere&point=0,0,0").status, 404);
 }
@@ -419,6 +428,20 @@ TEST_CASE("a silence holds back alerts of what it names") {
   CHECK_NE(yard.post("/api/v1/silences", {{"site", "yard"}, {"until", "2026-01-01T00:00:00Z"}, {"by", "anna"}})
                .complaint_about("until"),
            "");
+}
+
+TEST_CASE("a silence is for a sensor of its own site, and what is wrong with it is said once") {
+  WatchedYard yard;
+  yard.post("/api/v1/sites", {{"name", "hall"}});
+  json silence = {{"site", "hall"}, {"sensor", "gate"}, {"until", "2026-03-03T00:00:00Z"}, {"by", "anna"}};
+  CHECK_EQ(yard.post("/api/v1/silences", silence).complaint_about("sensor"), "is of another site");
+  CHECK_EQ(yard.items("/api/v1/silences").size(), 0);
+  silence.erase("until");
+  silence["from"] = "2026-03-02T00:00:00Z";
+  silence["to"] = "2026-03-03T00:00:00Z";
+  const Reply reply = yard.post("/api/v1/silences", silence);
+  CHECK_EQ(reply.complaint_about("until"), "is required");
+  CHECK_EQ(reply.complaint_about("to").find("did you mean"), std::string::npos);
 }
 
 TEST_CASE("the log of events has everything in order, by pages") {

@@ -263,6 +263,20 @@ TEST_CASE(
   CHECK(comparison.warnings.back().find("below the spacing of the shots of prior 0") != std::string::npos);
 }
 
+TEST_CASE("what is earlier is earlier, also by more than a duration reaches") {
+  const Time long_ago = parse_rfc3339("1690-01-01T00:00:00Z");
+  for (const Grouping grouping : kBoth) {
+    const auto appeared = compared(scan_of(room(true), from(0, 0), kStart, 2),
+                                   list(scan_of(room(false), from(0.5, 0.3), long_ago)), parameters(grouping));
+    CHECK(count(appeared, PointClass::added) > 0);
+    CHECK(count(appeared, PointClass::removed) == 0);
+    const auto later = compared(scan_of(room(true), from(0, 0), long_ago, 2),
+                                list(scan_of(room(false), from(0.5, 0.3), kStart)), parameters(grouping));
+    CHECK(count(later, PointClass::removed) > 0);
+    CHECK(count(later, PointClass::added) == 0);
+  }
+}
+
 TEST_CASE("a parameter out of its range is refused by name") {
   const Taken scan = scan_of(room(false), from(0, 0), kStart);
   CompareParameters with;

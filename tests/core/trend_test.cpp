@@ -61,6 +61,15 @@ TEST_CASE("a window with too few values has no velocity, and a series out of ord
   CHECK_THROWS_AS(velocities(mixed, {}), InvalidInput);
 }
 
+TEST_CASE("a series through centuries has its velocities, and no forecast beyond the last time there is") {
+  const Time first = parse_rfc3339("1678-01-01T00:00:00Z"), last = parse_rfc3339("2261-12-01T00:00:00Z");
+  const std::vector<TrendValue> apart{{first, 0}, {first + 24h, 1}, {first + 48h, 2}, {last, 3}};
+  CHECK(velocities(apart, {.window = 24h * 365}).size() == 1);
+  std::vector<Velocity> late;
+  for (int i = 0; i < 8; ++i) late.push_back({last + i * 24h, 1.0 / (0.2 * (9'000.0 - i))});
+  CHECK_FALSE(forecast_failure(late, {}).has_value());
+}
+
 TEST_CASE("the forecast of a creep whose inverse velocity is a line is where that line meets zero") {
   std::vector<Velocity> exact;
   for (int i = 0; i < 8; ++i) exact.push_back({after_days(i), 1.0 / (0.2 * (10.0 - i))});

@@ -42,6 +42,19 @@ TEST_CASE("what is no time is refused with what would be one") {
   }
 }
 
+TEST_CASE("times farther apart than a duration reaches keep their order, and none overflows") {
+  const Time first = parse_rfc3339("1678-01-01T00:00:00Z"), last = parse_rfc3339("2261-12-31T23:59:59Z");
+  CHECK(between(first, last) == Duration::max());
+  CHECK(between(last, first) == -Duration::max());
+  CHECK(std::chrono::abs(between(Time::max(), Time::min())) == Duration::max());
+  CHECK(between(Time{}, Time::min()) == -Duration::max());
+  CHECK(between(first, first + 5s) == 5s);
+  CHECK(between(first + 5s, first) == -5s);
+  CHECK(shifted(first, 5s) == first + 5s);
+  CHECK(shifted(first, -std::chrono::days(3650)) == Time::min());
+  CHECK(shifted(last, std::chrono::days(3650)) == Time::max());
+}
+
 TEST_CASE("a pose and its inverse cancel out") {
   const Pose world_from_a{Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized())),
                           {4, -5, 6}};
@@ -56,7 +69,27 @@ TEST_CASE("a pose of a user must be finite and a rotation; small errors of its n
   CHECK_THROWS_AS(checked_pose({0, 0, 0}, {0, 0, 0, 0}, "pose"), InvalidInput);
   CHECK_THROWS_AS(checked_pose({0, std::nan(""), 0}, {0, 0, 0, 1}, "pose"), InvalidInput);
   CHECK_THROWS_AS(checked_pose({0, 0, 0}, {0, 0, 0, std::nan("")}, "pose"), InvalidInput);
+  CHECK_THROWS_WITH_AS(checked_pose({0, 0, 0}, {0, 0, 0, 2}, "pose"),
+                       doctest::Contains("must be a unit quaternion x, y, z, w; its norm is 2.0"), InvalidInput);
   CHECK(checked_pose({1, 2, 3}, {0, 0, 0, 1.0005}, "pose").orientation.norm() == doctest::Approx(1.0).epsilon(1e-15));
+}
+
+TEST_CASE("a position may have any coordinates of a map, but none that no place on Earth has") {
+  const auto complaint = [](const Eigen::Vector3d& position_m) {
+    try {
+      checked_pose(position_m, {0, 0, 0, 1}, "pose");
+    } catch (const InvalidInput& error) {
+      return error.fields().front().message;
+    }
+    return std::string("none");
+  };
+  const Eigen::Vector3d in_a_zone_m(32'401'000.0, 5'502'000.0, 120.0),
+      geocentric_m(-2'694'045.0, -4'293'642.0, 3'857'878.0);
+  CHECK(complaint(in_a_zone_m) == "none");
+  CHECK(complaint(geocentric_m) == "none");
+  const std::string limit = "must have a position within 1e8 m of the origin of the coordinates, on each axis";
+  CHECK(complaint({401'000'000.0, 0.0, 0.0}) == limit);
+  CHECK(complaint({0.0, -1e30, 0.0}) == limit);
 }
 
 TEST_CASE("a panorama covers what lies before the farthest return of a direction, and nothing beyond or elsewhere") {

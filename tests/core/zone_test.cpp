@@ -67,6 +67,22 @@ TEST_CASE("what is no shape is refused, with what is wrong") {
   CHECK(complaint({kCorner, 2.0, 2.0}) == "z_max_m");
 }
 
+TEST_CASE("a shape that crosses itself, or is closed twice, is told how corners are given") {
+  const auto complaint = [](Polygon polygon_m) {
+    try {
+      check_prism(prism(std::move(polygon_m)));
+    } catch (const InvalidInput& error) {
+      return error.fields().front().message;
+    }
+    return std::string("none");
+  };
+  // Both triangles of this one are equally large, and turn against each other.
+  CHECK(complaint({{0, 0}, {6, 4}, {6, 0}, {0, 4}}).find("must not cross or touch itself") == 0);
+  CHECK(complaint({{0, 0}, {6, 0}, {6, 4}, {0, 4}, {0, 0}}).find("must not repeat the first corner") == 0);
+  CHECK(complaint({{0, 0}, {1, 0}, {2, 0}}) == "must enclose an area");
+  CHECK(complaint({{0, 0}, {6, 0}, {6, 4}, {0, 4}}) == "none");
+}
+
 TEST_CASE("the share of a box in a prism is that of its volume") {
   const Prism half = prism({{0, -5}, {5, -5}, {5, 5}, {0, 5}});
   const OrientedBox box{{0.0, 0.0, 1.0}, {2.0, 1.0, 1.0}, Eigen::Quaterniond::Identity()};

@@ -54,6 +54,8 @@ TEST_CASE("a PTX pose that contradicts itself or is no rotation is refused") {
   CHECK(contains(with_pose(axes, "0 1 0 0\n-1 0 0 0\n0 0 1 0\n1 2 3 1\n"), "contradict"));
   CHECK(contains(with_pose(axes, "1 0 0 0\n0 1 0 0\n0 0 1 0\n1 2 3 2\n"), "not 0 0 0 1"));
   CHECK(contains(with_pose("0 0 0\n2 0 0\n0 1 0\n0 0 1\n", "2 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"), "no rotation"));
+  CHECK(contains(with_pose("1e12 0 0\n1 0 0\n0 1 0\n0 0 1\n", "1 0 0 0\n0 1 0 0\n0 0 1 0\n1e12 0 0 1\n"),
+                 "line 10: the pose above: must have a position within 1e8 m"));
   CHECK(contains(with_pose("0 0 0\n-1 0 0\n0 1 0\n0 0 1\n", "-1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"), "no rotation"));
 }
 

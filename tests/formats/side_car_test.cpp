@@ -60,6 +60,9 @@ TEST_CASE("a side-car with a mistake is refused with the file and the member") {
                  "pose.position_m: must be an array of 3 numbers"));
   CHECK(contains(message_for(R"({"pose": {"position_m": [1,2,3], "orientation_xyzw": [0,0,0,2]}})"),
                  "scan.pcd.json: pose: must be a unit quaternion"));
+  CHECK(contains(message_for(R"({"pose": {"position_m": [1e12,2,3], "orientation_xyzw": [0,0,0,1]}})"),
+                 "scan.pcd.json: pose: must have a position within 1e8 m"));
+  CHECK(contains(message_for(R"({"by": "anna"})"), "by: unknown member; known are captured_at, sensor, frame, pose"));
   CHECK(contains(message_for(R"({"sensor": "a", "sensor": "b"})"), "sensor: stands there twice"));
 }
 

@@ -171,6 +171,34 @@ TEST_CASE("a scan that does not fit is marked, says so, and is never chosen as a
   CHECK(refused->reason.find("registration is bad") != std::string::npos);
 }
 
+TEST_CASE("a scan that is asked for is used though it does not fit, and the comparison says so") {
+  Place place;
+  const SensorId sensor = place.add_sensor("rover");
+  place.take(sensor, lab_scan(0), lab_scan(0).true_world_from_sensor);
+  const ScanRecord bad =
+      place.take(sensor, lab_scan(3), turned(lab_scan(3).true_world_from_sensor, 1.0, {0.0, 0.0, 1.0}));
+  const ScanRecord scan = place.take(sensor, lab_scan(6), lab_scan(6).true_world_from_sensor);
+  REQUIRE(bad.registration.state == RegistrationState::bad);
+  const ComparisonRecord compared =
+      place.compare(scan.id, ExplicitReference{{bad.id}}, default_parameters(Profile::indoor, Grouping::consensus));
+  REQUIRE(compared.priors.size() == 1);
+  CHECK(compared.priors[0].scan == bad.id);
+  CHECK(compared.testable > 0.0);
+  CHECK(has_warning(compared, "Scan " + std::to_string(bad.id.value) + " does not fit onto the earlier ones"));
+}
+
+TEST_CASE("of a scan that is asked for and cannot be used, the comparison says why") {
+  Place place;
+  const SensorId sensor = place.add_sensor("rover");
+  const ScanRecord far = place.take(sensor, lab_scan(0), shifted(lab_scan(0).true_world_from_sensor, {1e4, 0.0, 0.0}));
+  const ScanRecord scan = place.take(sensor, lab_scan(3), lab_scan(3).true_world_from_sensor);
+  const ComparisonRecord compared =
+      place.compare(scan.id, ExplicitReference{{far.id}}, default_parameters(Profile::indoor, Grouping::consensus));
+  CHECK(compared.priors.empty());
+  CHECK(has_warning(compared,
+                    "Scan " + std::to_string(far.id.value) + " was asked for and is not used: too little overlap"));
+}
+
 TEST_CASE("a fixed sensor that was tilted is good with a warning at first, and moved when it stays so") {
   Place place;
   const Pose fixed = lab_scan(0).true_world_from_sensor;

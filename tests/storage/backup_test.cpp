@@ -63,6 +63,7 @@ TEST_CASE_FIXTURE(StoreFixture, "a backup goes into an empty or a new directory 
   std::ofstream(target / "file") << "x";
   CHECK_THROWS_AS(store.backup(target / "file"), InvalidInput);
   CHECK_THROWS_AS(store.backup({}), InvalidInput);
+  CHECK_THROWS_AS(store.backup("/proc/copy"), InvalidInput);
 }
 
 TEST_CASE_FIXTURE(StoreFixture, "a backup does not go into the data directory, by whatever way") {

@@ -255,6 +255,15 @@ TEST_CASE_FIXTURE(DailyScans, "growth is told from what was received in the last
   for (std::size_t i = 2; i < scans.size(); ++i) bytes += scans[i].stored_bytes;
   CHECK(growth.bytes == bytes);
   CHECK_FALSE(store.read([&](const Snapshot& s) { return growth_of(s, site.id, now + std::chrono::days(30)); }));
+  // What came within minutes tells no rate: a day has to be measured.
+  const Site young = add_site(store, "young");
+  const Sensor eye = add_sensor(store, "eye", young.id);
+  for (const int second : {0, 60}) add_scan(store, eye, {.captured_at = at_second(second)});
+  const auto growth_at = [&](std::int64_t second) {
+    return store.read([&](const Snapshot& s) { return growth_of(s, young.id, at_second(second)); });
+  };
+  CHECK_FALSE(growth_at(kDay_s));
+  CHECK(growth_at(kDay_s + 1));
 }
 
 TEST_CASE_FIXTURE(DailyScans, "while the store is copied deletions wait, and it is known that they do") {

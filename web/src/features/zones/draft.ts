@@ -44,7 +44,7 @@ export function faultsOf(draft: ZoneDraft, outline: OutlineEdit): Partial<Record
   return faults;
 }
 
-export const bodyOf = (draft: ZoneDraft, outline: OutlineEdit): Schema<'NewZone'> => ({
+export const bodyOf = (draft: ZoneDraft, outline: OutlineEdit): Schema<'ZoneEdit'> => ({
   name: draft.name.trim(),
   kind: draft.kind,
   polygon_m: outline.corners.map(([x, y]) => [x, y]),
@@ -53,8 +53,8 @@ export const bodyOf = (draft: ZoneDraft, outline: OutlineEdit): Schema<'NewZone'
 });
 
 /** What differs between what is there and what is filled in. */
-export function differencesOf(theirs: Schema<'NewZone'>, mine: Schema<'NewZone'>): Difference[] {
-  const outline = ({ polygon_m }: Schema<'NewZone'>): string =>
+export function differencesOf(theirs: Schema<'ZoneEdit'>, mine: Schema<'ZoneEdit'>): Difference[] {
+  const outline = ({ polygon_m }: Schema<'ZoneEdit'>): string =>
     `${polygon_m.length} corners: ${polygon_m.map((corner) => `(${corner.join(', ')})`).join(' ')}`;
   return [
     { name: 'Name', theirs: theirs.name, mine: mine.name },

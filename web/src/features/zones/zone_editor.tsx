@@ -33,8 +33,8 @@ export interface ZoneEditorProps {
   /** Under the fields: beside "Save". */
   actions?: ComponentChildren;
   /** Above the fields; gets what is filled in. */
-  notice?: (mine: Schema<'NewZone'>) => ComponentChildren;
-  onSave: (body: Schema<'NewZone'>) => void;
+  notice?: (mine: Schema<'ZoneEdit'>) => ComponentChildren;
+  onSave: (body: Schema<'ZoneEdit'>) => void;
 }
 
 /** A new zone begins so far below and above the ground at its first corner. */

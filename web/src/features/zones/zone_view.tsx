@@ -43,7 +43,7 @@ function OneZone({ resource }: { resource: Resource<Zone> & { data: Zone } }) {
   const { saving, problem, run } = useSaving();
   const [asking, setAsking] = useState(false);
   const zone = resource.data;
-  const save = (body: Schema<'NewZone'>, etag: string | undefined): void =>
+  const save = (body: Schema<'ZoneEdit'>, etag: string | undefined): void =>
     void run(
       async () => {
         const answer = await send('put', '/api/v1/zones/{id}', { path: { id: zone.id }, body, etag });
@@ -132,7 +132,7 @@ export const NewZoneView = () => (
 
 function MakeZone({ site }: { site: string }) {
   const { saving, problem, run } = useSaving();
-  const make = (body: Schema<'NewZone'>): void =>
+  const make = (body: Schema<'ZoneEdit'>): void =>
     void run(async () => {
       const answer: Answer<Zone> = await send('post', '/api/v1/zones', { body: { ...body, site } });
       listsAreOld();
