@@ -111,11 +111,11 @@ bool has_gaps(const ShotExtent& extent) {
   return extent.filled < kFilled;
 }
 
-/// Whether a cluster is a single line of shots that no ray went through: so an edge of a thing that stayed looks, when
-/// the other scan's rays passed beside it.
-bool may_be_an_edge(const ShotExtent& extent, const ClusterVotes& votes) {
+/// Whether a cluster is a single line of shots: so an edge of a thing that stayed looks, when the other scan's rays
+/// passed beside it. No line surrounds a ray; one that leans a little only seems to.
+bool is_line(const ShotExtent& extent) {
   constexpr double kLine = 1.5;
-  return extent.width < kLine && votes.rays_through == 0;
+  return extent.width < kLine;
 }
 
 /// Whether rays may have passed a strip at most three shots wide although nothing changed: through its gaps, as between
@@ -215,7 +215,7 @@ double log_odds_of_change(const ClusterVotes& votes, const ClusterLook& look, co
     constexpr std::size_t kFewestRays = 2;
     if (votes.rays_through + votes.penetrated < kFewestRays) return -std::numeric_limits<double>::infinity();
     const double looked_at = count(std::max<std::size_t>(votes.looked_at, 1));
-    const bool in_doubt = look.extent && (has_gaps(*look.extent) || may_be_an_edge(*look.extent, votes));
+    const bool in_doubt = look.extent && (has_gaps(*look.extent) || is_line(*look.extent));
     return -10.83 - (in_doubt ? kDoubt : 0.0) + 1.17 * rays + 0.64 * penetrated +
            6.36 * count(votes.penetrated) / looked_at - 3.18 * blocked - 22.93 * look.porosity + 6.79 * clearance +
            1.61 * std::log(looked_at) + 9.22 * look.smoothness;
