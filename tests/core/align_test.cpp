@@ -202,6 +202,28 @@ TEST_CASE("along a corridor the way is not known, and everything else is") {
   CHECK(found.uncertainty.position_m > 0.9 * AlignParameters{}.reported.position_m);
 }
 
+TEST_CASE("a row of floor and one of the wall behind it are no piece of floor, and lift no scan of a large hall") {
+  constexpr double kFloor_m = -5.0;
+  Scene hall;
+  hall.add(Box{{Eigen::Quaterniond::Identity(), {0.0, 0.0, kFloor_m - 0.5}}, Eigen::Vector3d(51.0, 51.0, 0.5)});
+  for (const double side : {-1.0, 1.0}) {
+    hall.add(Box{{Eigen::Quaterniond::Identity(), {50.0 * side, 0.0, 5.0}}, Eigen::Vector3d(0.5, 51.0, 11.0)});
+    hall.add(Box{{Eigen::Quaterniond::Identity(), {0.0, 50.0 * side, 5.0}}, Eigen::Vector3d(51.0, 0.5, 11.0)});
+  }
+  const auto standing = [](double x, double y, double height_m) {
+    return Pose{Eigen::Quaterniond::Identity(), {x, y, kFloor_m + height_m}};
+  };
+  const Taken scan = taken(hall, standing(-30.0, -38.0, 2.9), 1);
+  for (const double height_m : {1.0, 1.3, 1.5, 1.6, 1.7, 1.8, 2.1}) {
+    const Taken reference = taken(hall, standing(-33.5, 24.0, height_m), 2);
+    const Pose truth = scan.scan.true_world_from_sensor;
+    const Alignment found = aligned(scan, truth, reference);
+    CAPTURE(height_m);
+    CHECK(found.state == RegistrationState::good);
+    CHECK(error_of(found, truth, scan).position_m < 0.015);
+  }
+}
+
 TEST_CASE("the same bytes come out with one thread and with eight") {
   const Taken &scan = taken(Family::lab, 4), &reference = taken(Family::lab, 0);
   const Pose said = disturbed(scan.scan.true_world_from_sensor, kUsualError, 1);
