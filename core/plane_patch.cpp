@@ -30,8 +30,8 @@ constexpr double kLeastSpread = 0.1;
 
 /// Tells whether directions lie on two rows or two columns of shots. A plane goes through any two parallel lines, also
 /// when one of them is the floor and the other the wall behind it, and what is left of the fit does not show that.
-/// By Pearson's inequality (1916) the kurtosis of any distribution is at least 1 + skewness^2, and equal to it only when
-/// there are but two values; three equally frequent ones, a step apart, exceed it by 0.5.
+/// By Pearson's inequality (1916) the kurtosis of any distribution is at least 1 + skewness^2, and equal to it only
+/// when there are but two values; three equally frequent ones, a step apart, exceed it by 0.5.
 class OnTwoLines {
  public:
   /// @param position across columns and across rows, in any unit.
