@@ -140,17 +140,19 @@ std::optional<FieldError> difference(const ArrivingScan& scan, const ScanRecord&
   return FieldError{"frame", "is another one than that of " + name + ", or the format is: the points lie elsewhere"};
 }
 
+Conflict conflict_with(const ScanRecord& stored, const FieldError& found) {
+  const std::string id = std::to_string(stored.id.value);
+  return Conflict("scan " + id + " is of the same sensor and time (" + format_rfc3339(stored.captured_at) +
+                      ") and has the same bytes; the " + found.field + " " + found.message +
+                      ". Nothing was changed: delete scan " + id + " first, or give another capture time",
+                  {found});
+}
+
 /// @throws Conflict when an arriving scan has the bytes of a stored one, but another pose or frame.
 void refuse_other_placement(const std::vector<ArrivingScan>& scans, const std::vector<ScanRecord>& stored,
                             const Payloads& payloads) {
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    const std::optional<FieldError> found = difference(scans[i], stored[i], payloads);
-    if (!found) continue;
-    const std::string id = std::to_string(stored[i].id.value);
-    throw Conflict("scan " + id + " is of the same sensor and time (" + format_rfc3339(stored[i].captured_at) +
-                       ") and has the same bytes; the " + found->field + " " + found->message +
-                       ". Nothing was changed: delete scan " + id + " first, or give another capture time",
-                   {*found});
+    if (const auto found = difference(scans[i], stored[i], payloads)) throw conflict_with(stored[i], *found);
   }
 }
 
