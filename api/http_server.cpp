@@ -48,9 +48,8 @@ std::optional<std::string> complaint_about_host(const HttpConfig& config) {
   };
   if (config.host.empty() || !std::ranges::all_of(config.host, fits)) return "must be a host's name or address";
   if (config.allow_remote || is_loopback_host(config.host)) return std::nullopt;
-  return "is not a loopback address. There are no accounts, so that others are listened on only with --allow-remote, "
-         "or "
-         "allow_remote = true in [http]";
+  return "is not a loopback address. There are no accounts, so that others are listened on only with "
+         "--allow-remote, or allow_remote = true in [http]";
 }
 
 HttpServer::HttpServer(const HttpConfig& config, const Services& services)

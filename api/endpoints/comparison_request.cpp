@@ -4,6 +4,7 @@
 
 #include "api/json_object.hpp"
 #include "api/lookup.hpp"
+#include "api/parameter_bounds.hpp"
 #include "api/units.hpp"
 #include "core/profile.hpp"
 #include "storage/baselines.hpp"
@@ -13,12 +14,7 @@ namespace {
 
 constexpr std::size_t kMaxExplicitScans = 255;  // `compare` counts priors in a byte
 
-constexpr RealBounds kAngle_deg{.min = 0.0, .max = 90.0, .exclusive_min = true};
-constexpr RealBounds kThreshold_m{.min = 0.0, .max = 1000.0};
 constexpr RealBounds kDistance_m{.min = 0.0, .max = 1000.0, .exclusive_min = true};
-constexpr RealBounds kRange_m{.min = 0.0, .max = 1e9};
-constexpr RealBounds kContemporary_s{.min = 0.0, .max = 1e9};
-constexpr IntegerBounds kMinPoints{.min = 0, .max = 1'000'000'000};
 
 template <class T>
 void assign(const std::optional<T>& given, T& value) {
@@ -28,19 +24,21 @@ void assign(const std::optional<T>& given, T& value) {
 CompareParameters parse_parameters(JsonObject& body, Profile profile) {
   const auto grouping = body.parsed("grouping", parse_grouping).value_or(Grouping::consensus);
   CompareParameters parameters = default_parameters(profile, grouping);
-  if (const auto angle_deg = body.real("angle_deg", kAngle_deg)) parameters.angle_rad = radians_of_deg(*angle_deg);
-  assign(body.real("range_m", kThreshold_m), parameters.range_m);
-  assign(body.real("support_distance_m", kThreshold_m), parameters.support_distance_m);
-  assign(body.real("growth_distance_m", kThreshold_m), parameters.growth_distance_m);
-  assign(body.real("foliage_distance_m", kThreshold_m), parameters.foliage_distance_m);
+  if (const auto angle_deg = body.real("angle_deg", kAngleBounds_deg)) {
+    parameters.angle_rad = radians_of_deg(*angle_deg);
+  }
+  assign(body.real("range_m", kThresholdBounds_m), parameters.range_m);
+  assign(body.real("support_distance_m", kThresholdBounds_m), parameters.support_distance_m);
+  assign(body.real("growth_distance_m", kThresholdBounds_m), parameters.growth_distance_m);
+  assign(body.real("foliage_distance_m", kThresholdBounds_m), parameters.foliage_distance_m);
   assign(body.flag("clustering"), parameters.clustering);
   assign(body.real("cluster_distance_m", kDistance_m), parameters.cluster_distance_m);
-  if (const auto points = body.integer("cluster_min_points", kMinPoints)) {
+  if (const auto points = body.integer("cluster_min_points", kMinPointsBounds)) {
     parameters.cluster_min_points = static_cast<std::size_t>(*points);
   }
-  assign(body.real("min_range_m", kRange_m), parameters.min_range_m);
-  assign(body.real("max_range_m", kRange_m), parameters.max_range_m);
-  if (const auto seconds = body.real("contemporary_s", kContemporary_s)) {
+  assign(body.real("min_range_m", kRangeBounds_m), parameters.min_range_m);
+  assign(body.real("max_range_m", kRangeBounds_m), parameters.max_range_m);
+  if (const auto seconds = body.real("contemporary_s", kContemporaryBounds_s)) {
     parameters.contemporary_tolerance = duration_of_seconds(*seconds);
   }
   assign(body.flag("align"), parameters.align);

@@ -40,6 +40,12 @@ GivenSilence parse_silence(const nlohmann::json& json) {
   return given;
 }
 
+/// @param what is silenced, and the member that names it
+void require_site(SiteId found, SiteId site, const std::string& what) {
+  if (found == site) return;
+  throw InvalidInput("The " + what + " is of another site.", {{what, "is of another site"}});
+}
+
 }  // namespace
 
 HttpAnswer create_silence(Call& call) {
@@ -53,14 +59,10 @@ HttpAnswer create_silence(Call& call) {
     record.silence = {.zone = given.zone, .from = from, .until = given.until};
     if (given.sensor) {
       const Sensor sensor = sensor_named(transaction, *given.sensor);
-      if (sensor.site != record.site) {
-        throw InvalidInput("The sensor is of another site.", {{"sensor", "is of another site"}});
-      }
+      require_site(sensor.site, record.site, "sensor");
       record.silence.sensor = sensor.id;
     }
-    if (given.zone && zone_with(transaction, *given.zone).site != record.site) {
-      throw InvalidInput("The zone is of another site.", {{"zone", "is of another site"}});
-    }
+    if (given.zone) require_site(zone_with(transaction, *given.zone).site, record.site, "zone");
     return render(transaction, insert_silence(transaction, record, now));
   });
   HttpAnswer answer = json_answer(json, 201);

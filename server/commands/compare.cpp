@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "api/parameter_bounds.hpp"
 #include "core/profile.hpp"
 #include "server/commands/commands.hpp"
 #include "server/commands/number_options.hpp"
@@ -34,12 +35,8 @@ Examples:
 
 Exit codes: 0 done, 1 failed (a file cannot be written), 2 wrong arguments or input files.)";
 
-constexpr RealBounds kAngle_deg{.min = 0.0, .max = 90.0, .exclusive_min = true};
-constexpr RealBounds kThreshold_m{.min = 0.0, .max = 1e6};
+constexpr RealBounds kAgreement_m{.min = 0.0, .max = 1e6};
 constexpr RealBounds kDistance_m{.min = 0.0, .max = 1e6, .exclusive_min = true};
-constexpr RealBounds kRange_m{.min = 0.0, .max = 1e9};
-constexpr RealBounds kContemporary_s{.min = 0.0, .max = 1e9};
-constexpr IntegerBounds kMinPoints{.min = 0, .max = 1'000'000'000};
 constexpr IntegerBounds kThreads{.min = 0, .max = 1024};
 
 /// The command line as it was given; what is not given follows the profile and the grouping.
@@ -116,36 +113,38 @@ void add_compare(CLI::App& program, Run& run) {
       ->check(CLI::IsMember({"indoor", "outdoor", "survey"}))
       ->capture_default_str();
   command->add_option("--angle-deg", options->angle_deg, "Half-angle of the cone of prior returns asked about a point")
-      ->check(within(kAngle_deg));
+      ->check(within(kAngleBounds_deg));
   command->add_option("--range-m", options->range_m, "Range difference below which two returns agree")
-      ->check(within(kThreshold_m));
+      ->check(within(kAgreement_m));
   command
       ->add_option("--support-distance-m", options->support_distance_m,
                    "In a consensus, how rough surfaces are; 0: answers are not weighed")
-      ->check(within(kThreshold_m));
+      ->check(within(kThresholdBounds_m));
   command
       ->add_option("--growth-distance-m", options->growth_distance_m,
                    "In a consensus, how far a change grows over points that no prior supports")
-      ->check(within(kThreshold_m));
+      ->check(within(kThresholdBounds_m));
   command
       ->add_option("--foliage-distance-m", options->foliage_distance_m,
                    "In a consensus, how far around a change a prior must not look like foliage; 0: not asked")
-      ->check(within(kThreshold_m));
+      ->check(within(kThresholdBounds_m));
   command
       ->add_option("--cluster-distance-m", options->cluster_distance_m,
                    "Changed points nearer than this are one change")
       ->check(within(kDistance_m));
   command
       ->add_option("--cluster-min-points", options->cluster_min_points, "Changes of at most so many points are noise")
-      ->check(within(kMinPoints));
+      ->check(within(kMinPointsBounds));
   command->add_flag("--no-cluster", options->no_cluster, "Report every changed point");
   command->add_flag("--no-align", options->no_align,
                     "Take all poses as given; else a consensus fits each prior to NEW");
-  command->add_option("--min-range-m", options->min_range_m, "Nearer returns are ignored")->check(within(kRange_m));
-  command->add_option("--max-range-m", options->max_range_m, "Farther returns are ignored")->check(within(kRange_m));
+  command->add_option("--min-range-m", options->min_range_m, "Nearer returns are ignored")
+      ->check(within(kRangeBounds_m));
+  command->add_option("--max-range-m", options->max_range_m, "Farther returns are ignored")
+      ->check(within(kRangeBounds_m));
   command
       ->add_option("--contemporary-s", options->contemporary_s, "Scans no farther apart in time show the same moment")
-      ->check(within(kContemporary_s))
+      ->check(within(kContemporaryBounds_s))
       ->capture_default_str();
   command->add_option("--threads", options->threads, "0: one a core")->check(within(kThreads))->capture_default_str();
   command->add_option("--output", options->output, "Every point of NEW with its class (.csv, .pcd or .ply)")
