@@ -114,7 +114,7 @@ bool has_gaps(const ShotExtent& extent) {
 /// Whether a cluster is a single line of shots: so an edge of a thing that stayed looks, when the other scan's rays
 /// passed beside it. No line surrounds a ray; one that leans a little only seems to.
 bool is_line(const ShotExtent& extent) {
-  constexpr double kLine = 1.5;
+  constexpr double kLine = 1.8;
   return extent.width < kLine;
 }
 
@@ -210,21 +210,24 @@ double log_odds_of_change(const ClusterVotes& votes, const ClusterLook& look, co
   const double clearance = std::log(votes.clearance_m + kLeastClearance_m);
   const double roughness_m = std::min(kMostRoughness_m, votes.roughness_m);
   // What looks as things that stay often do must be so much surer.
-  constexpr double kDoubt = 2.5;
+  constexpr double kDoubtInRooms = 3.6, kDoubtOutdoors = 2.5;
   if (parameters.foliage_distance_m == 0.0) {
-    constexpr std::size_t kFewestRays = 2;
-    if (votes.rays_through + votes.penetrated < kFewestRays) return -std::numeric_limits<double>::infinity();
+    constexpr std::size_t kFewestRays = 2, kShortLine = 7;
+    constexpr double kNever = -std::numeric_limits<double>::infinity();
+    if (votes.rays_through + votes.penetrated < kFewestRays) return kNever;
+    const bool line = look.extent && is_line(*look.extent);
+    if (line && votes.rays_through == 0 && votes.looked_at < kShortLine) return kNever;  // a far edge
     const double looked_at = count(std::max<std::size_t>(votes.looked_at, 1));
-    const bool in_doubt = look.extent && (has_gaps(*look.extent) || is_line(*look.extent));
-    return -10.83 - (in_doubt ? kDoubt : 0.0) + 1.17 * rays + 0.64 * penetrated +
-           6.36 * count(votes.penetrated) / looked_at - 3.18 * blocked - 22.93 * look.porosity + 6.79 * clearance +
-           1.61 * std::log(looked_at) + 9.22 * look.smoothness;
+    const bool in_doubt = line || (look.extent && has_gaps(*look.extent));
+    return -4.58 - (in_doubt ? kDoubtInRooms : 0.0) + 2.13 * rays + 0.44 * penetrated +
+           5.17 * count(votes.penetrated) / looked_at - 7.12 * blocked - 30.0 * look.porosity + 6.8 * clearance -
+           0.20 * std::log(looked_at) + 9.2 * look.smoothness;
   }
   // Through many a thing that stays no ray happens to pass but beside it: a post, or the edge of a roof, that is
   // narrower than the shots of a far scan are apart.
   const double no_ray = votes.rays_through == 0 ? 1.5 : 0.0;
   const bool in_doubt = look.extent && may_have_been_passed(*look.extent, votes);
-  return -12.32 - no_ray - (in_doubt ? kDoubt : 0.0) + 1.51 * rays + 2.29 * penetrated - 1.73 * blocked -
+  return -12.32 - no_ray - (in_doubt ? kDoubtOutdoors : 0.0) + 1.51 * rays + 2.29 * penetrated - 1.73 * blocked -
          17.75 * look.porosity + 5.67 * clearance + 9.74 * votes.surroundings - 569.0 * roughness_m;
 }
 

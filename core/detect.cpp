@@ -101,7 +101,8 @@ class Detector {
   void grow_over_scan(Detection& detection) const {
     if (!asking_.grows()) return;
     const std::vector<Candidate> candidates = candidates_of_scan(detection);
-    const std::vector<ClassedPoint> seeds = find_seeds(scan_, candidates, priors_, parameters_);
+    const std::vector<JudgedCluster> clusters = judge_clusters(scan_, candidates, priors_, false, parameters_);
+    const std::vector<ClassedPoint> seeds = find_seeds({&clusters, 1}, parameters_).front();
     for (const Candidate& candidate : candidates) detection.classes[candidate.index] = PointClass::unchanged;
     if (seeds.empty()) return;
     const auto is_open = [&](std::span<const std::uint32_t> places) {

@@ -6,7 +6,7 @@
 #include "core/compare.hpp"
 #include "core/fold.hpp"
 #include "core/join_parts.hpp"
-#include "core/seeds.hpp"
+#include "core/reach.hpp"
 
 namespace raywatch {
 namespace {

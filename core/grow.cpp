@@ -9,6 +9,7 @@
 
 #include "core/assumed_sensor.hpp"
 #include "core/marked_points.hpp"
+#include "core/reach.hpp"
 #include "core/returns_near.hpp"
 
 namespace raywatch {

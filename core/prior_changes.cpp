@@ -9,6 +9,7 @@
 #include "core/fold.hpp"
 #include "core/grow.hpp"
 #include "core/marked_points.hpp"
+#include "core/reach.hpp"
 #include "core/returns_near.hpp"
 
 namespace raywatch {
@@ -43,6 +44,7 @@ class PriorSearch {
   PriorChanges run() {
     PriorChanges changes;
     for (std::uint32_t p = 0; p < priors_.size(); ++p) examine(p);
+    if (asking_.grows()) judge();
     if (any_seeds()) {
       for (std::uint32_t p = 0; p < priors_.size(); ++p) grow_over(p);
     }
@@ -64,7 +66,18 @@ class PriorSearch {
     for (std::size_t k = 0; k < free.size(); ++k) {
       state.candidates.push_back({free[k], class_of_prior_point(epochs_[p]), refuted[k] != 0});
     }
-    if (asking_.grows()) state.seeds = find_seeds(prior, state.candidates, {&scan_, 1}, parameters_);
+  }
+
+  /// All priors together, as one may confirm what another shows.
+  void judge() {
+    std::vector<std::vector<JudgedCluster>> clusters;
+    for (std::size_t p = 0; p < priors_.size(); ++p) {
+      const bool is_one_of_several = priors_.size() > 1;
+      clusters.push_back(
+          judge_clusters(priors_[p], states_[p].candidates, {&scan_, 1}, is_one_of_several, parameters_));
+    }
+    std::vector<std::vector<ClassedPoint>> seeds = find_seeds(clusters, parameters_);
+    for (std::size_t p = 0; p < priors_.size(); ++p) states_[p].seeds = std::move(seeds[p]);
   }
 
   bool any_seeds() const {

@@ -52,9 +52,15 @@ std::vector<Candidate> added(const std::vector<std::uint32_t>& shots) {
   return candidates;
 }
 
+std::vector<ClassedPoint> seeds_of(const Taken& scan, std::span<const ScanView> asked,
+                                   const std::vector<Candidate>& candidates) {
+  const std::vector<JudgedCluster> clusters = judge_clusters(scan.view(), candidates, asked, false, parameters());
+  return find_seeds({&clusters, 1}, parameters()).front();
+}
+
 std::vector<ClassedPoint> seeds_of(const Taken& scan, const Taken& prior, const std::vector<Candidate>& candidates) {
   const std::vector<ScanView> asked{prior.view()};
-  return find_seeds(scan.view(), candidates, asked, parameters());
+  return seeds_of(scan, asked, candidates);
 }
 
 std::vector<ClassedPoint> grown(const Taken& scan, const Taken& prior, const std::vector<Candidate>& candidates,
@@ -135,7 +141,7 @@ TEST_CASE("what one station of a visit does not see is no change when another st
     std::vector<ScanView> asked{free.view(), shown.view()};
     asked[0].captured_at = Time(std::chrono::hours(100));
     asked[1].captured_at = asked[0].captured_at - shown_before_free;
-    return find_seeds(scan.view(), added(shots_of_thing(3, 3)), asked, parameters()).size();
+    return seeds_of(scan, asked, added(shots_of_thing(3, 3))).size();
   };
   CHECK(seeds(std::chrono::minutes(5)) == 0);
   CHECK(seeds(-std::chrono::minutes(5)) == 0);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "core/cluster_rays.hpp"
 #include "core/cluster_votes.hpp"
@@ -117,5 +118,45 @@ TEST_CASE("single returns of a fence are scattered, a small thing is not") {
   CHECK_FALSE(is_scattered(thing.size(), smoothness_of(scan.view(), thing)));
 }
 
+/// A cluster of nine points in a box of 20 cm.
+JudgedCluster judged(double log_odds, double x_m = 0.0) {
+  JudgedCluster cluster{.point_class = PointClass::removed, .members = {0, 1, 2, 3, 4, 5, 6, 7, 8}};
+  cluster.box_m = Eigen::AlignedBox3d(Eigen::Vector3d(x_m, 0.0, 0.0), Eigen::Vector3d(x_m + 0.2, 0.2, 0.2));
+  cluster.log_odds = log_odds;
+  cluster.rays_through = kEnoughRaysThrough;
+  return cluster;
+}
+
+/// How many seeds the first of some scans has, of which each shows one cluster.
+std::size_t seeds_of_first(const std::vector<JudgedCluster>& clusters, Profile profile = Profile::indoor) {
+  std::vector<std::vector<JudgedCluster>> scans;
+  for (const JudgedCluster& cluster : clusters) scans.push_back({cluster});
+  return find_seeds(scans, default_parameters(profile, Grouping::consensus)).front().size();
+}
+
 }  // namespace
+TEST_CASE("what one scan is nearly sure of is believed when a second one says the same of the same place") {
+  const CompareParameters rooms = default_parameters(Profile::indoor, Grouping::consensus);
+  const double sure = sure_log_odds(9, rooms), nearly = sure - 2.0, doubtful = least_log_odds_of_second_opinion(rooms);
+  CHECK(seeds_of_first({judged(sure)}) == 9);
+  CHECK(seeds_of_first({judged(nearly)}) == 0);
+  CHECK(seeds_of_first({judged(nearly), judged(doubtful, 0.25)}) == 9);
+  CHECK(seeds_of_first({judged(doubtful), judged(nearly, 0.25)}) == 0);
+  JudgedCluster twice_asked = judged(nearly);
+  twice_asked.next_log_odds = doubtful;
+  CHECK(seeds_of_first({twice_asked}) == 9);
+}
+
+TEST_CASE("a second opinion counts for the same place and kind, through enough rays, and never among leaves") {
+  const double nearly = sure_log_odds(9, default_parameters(Profile::indoor, Grouping::consensus)) - 2.0;
+  CHECK(seeds_of_first({judged(nearly), judged(nearly)}) == 9);
+  CHECK(seeds_of_first({judged(nearly), judged(nearly, 0.35)}) == 0);
+  JudgedCluster of_other_kind = judged(nearly), hardly_crossed = judged(nearly);
+  of_other_kind.point_class = PointClass::discrepancy;
+  hardly_crossed.rays_through = kEnoughRaysThrough - 1;
+  CHECK(seeds_of_first({judged(nearly), of_other_kind}) == 0);
+  CHECK(seeds_of_first({hardly_crossed, judged(nearly)}) == 0);
+  CHECK(seeds_of_first({judged(nearly), judged(nearly)}, Profile::outdoor) == 0);
+}
+
 }  // namespace raywatch
