@@ -4,13 +4,13 @@
 #include <string_view>
 
 #include "api/base64.hpp"
+#include "api/name_rules.hpp"
 #include "core/error.hpp"
 
 namespace raywatch {
 namespace {
 
 bool is_graphic(char c) { return c > 0x20 && c < 0x7F; }
-bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 bool is_alphanumeric(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool has(std::string_view set, char c) { return set.find(c) != std::string_view::npos; }
 

@@ -3,12 +3,6 @@
 namespace raywatch {
 namespace {
 
-template <class Record>
-Record required(std::optional<Record> record, const std::string& what) {
-  if (!record) throw NotFound("There is no " + what + ".");
-  return *std::move(record);
-}
-
 std::string quoted_name(std::string_view name) { return "'" + std::string(name.substr(0, 200)) + "'"; }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/error.hpp"
 #include "storage/alerts.hpp"
@@ -34,6 +35,13 @@ AlertRecord alert_with(const Snapshot& snapshot, AlertId id);
 ChannelRecord channel_with(const Snapshot& snapshot, ChannelId id);
 DeliveryRecord delivery_with(const Snapshot& snapshot, DeliveryId id);
 /// @}
+
+/// What was looked up. @throws NotFound when there is none.
+template <class Record>
+Record required(std::optional<Record> record, const std::string& what) {
+  if (!record) throw NotFound("There is no " + what + ".");
+  return *std::move(record);
+}
 
 /// The id in a path. What is no id names nothing. @throws NotFound.
 template <class SomeId>

@@ -4,6 +4,9 @@
 
 namespace raywatch {
 
+/// Whether it is a control character of ASCII.
+bool is_control(char c);
+
 /// The name of a site or sensor: 1 to 100 bytes of UTF-8 that can stand in an address.
 /// @throws InvalidInput.
 std::string checked_name(const std::string& name);

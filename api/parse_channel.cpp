@@ -10,7 +10,6 @@
 namespace raywatch {
 namespace {
 
-using Json = nlohmann::json;
 using Check = std::function<std::string(const std::string&)>;
 
 constexpr std::size_t kMostTexts = 50;
@@ -18,14 +17,14 @@ constexpr std::size_t kMostTexts = 50;
 /// An array of texts that each pass a check; empty when it is absent or wrong.
 std::vector<std::string> texts(JsonObject& body, const char* name, const Check& check) {
   std::vector<std::string> result;
-  const Json* array = body.any(name);
+  const nlohmann::json* array = body.any(name);
   if (array == nullptr) return result;
   if (!array->is_array() || array->empty() || array->size() > kMostTexts ||
-      !std::ranges::all_of(*array, [](const Json& text) { return text.is_string(); })) {
+      !std::ranges::all_of(*array, [](const nlohmann::json& text) { return text.is_string(); })) {
     body.fail(name, "must be an array of 1 to " + std::to_string(kMostTexts) + " texts");
     return result;
   }
-  for (const Json& text : *array) {
+  for (const nlohmann::json& text : *array) {
     try {
       result.push_back(check(text.get<std::string>()));
     } catch (const InvalidInput& error) {
@@ -115,7 +114,7 @@ ChannelSettings parse_settings(JsonObject& body, ChannelKind kind, const Channel
 
 }  // namespace
 
-GivenChannel parse_channel(const Json& json, const ChannelRecord* before) {
+GivenChannel parse_channel(const nlohmann::json& json, const ChannelRecord* before) {
   FieldErrors errors;
   JsonObject body(json, "", errors);
   GivenChannel given;

@@ -98,12 +98,6 @@ Json render_scans(const std::vector<SurveyedScan>& scans, const Eigen::Vector3d&
   return list;
 }
 
-template <class T>
-T required(std::optional<T> found, const std::string& what) {
-  if (!found) throw NotFound("There is no " + what + ".");
-  return std::move(*found);
-}
-
 }  // namespace
 
 Json render(const SurveyDefinition& definition) {

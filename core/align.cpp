@@ -16,10 +16,10 @@
 namespace raywatch {
 namespace {
 
-constexpr Names<RegistrationState, 4> kStates{{{RegistrationState::none, "none"},
-                                               {RegistrationState::good, "good"},
-                                               {RegistrationState::moved, "moved"},
-                                               {RegistrationState::bad, "bad"}}};
+constexpr Names<RegistrationState, 4> kRegistrationStates{{{RegistrationState::none, "none"},
+                                                           {RegistrationState::good, "good"},
+                                                           {RegistrationState::moved, "moved"},
+                                                           {RegistrationState::bad, "bad"}}};
 
 constexpr int kMostIterations = 40;
 /// A step smaller than this is the end.
@@ -30,7 +30,7 @@ constexpr double kStepEnd_rad = 2e-6;
 constexpr double kFirstBlur_m = 0.1;
 constexpr double kLastBlur_m = 0.0005;
 /// Distances beyond this many deviations have no weight (Tukey).
-constexpr double kTukey = 4.7;
+constexpr double kTukeyDistance = 4.7;
 /// Surfaces farther apart than this many deviations do not agree.
 constexpr double kAgree = 3.5;
 /// The distances of a good fit may spread by this much more than the noise says.
@@ -63,7 +63,7 @@ Eigen::Quaterniond turn_by(const Eigen::Vector3d& turn_rad) {
 }
 
 double tukey_weight(double deviations, double spread) {
-  const double u = deviations / (kTukey * spread);
+  const double u = deviations / (kTukeyDistance * spread);
   return std::abs(u) >= 1.0 ? 0.0 : (1.0 - u * u) * (1.0 - u * u);
 }
 
@@ -257,9 +257,9 @@ class Fitting {
 
 }  // namespace
 
-std::string_view to_string(RegistrationState state) { return name_of(kStates, state); }
+std::string_view to_string(RegistrationState state) { return name_of(kRegistrationStates, state); }
 RegistrationState parse_registration_state(std::string_view name) {
-  return value_of(kStates, name, "registration state");
+  return value_of(kRegistrationStates, name, "registration state");
 }
 
 PoseUncertainty size_of(const Pose& correction, const Pose& reported) {

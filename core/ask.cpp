@@ -15,10 +15,8 @@
 namespace raywatch {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 void check(const Thresholds& thresholds) {
-  if (!(thresholds.angle_rad > 0.0 && thresholds.angle_rad <= kPi / 2)) {
+  if (!(thresholds.angle_rad > 0.0 && thresholds.angle_rad <= std::numbers::pi / 2)) {
     throw InvalidInput("The angular threshold must be above 0 and at most 90 degrees.",
                        {{"angle_deg", "must be above 0 and at most 90"}});
   }

@@ -9,7 +9,7 @@
 namespace raywatch {
 namespace {
 
-constexpr Names<ChangeKind, 3> kKinds{
+constexpr Names<ChangeKind, 3> kKindNames{
     {{ChangeKind::added, "added"}, {ChangeKind::removed, "removed"}, {ChangeKind::discrepancy, "discrepancy"}}};
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -74,8 +74,8 @@ Rectangle smallest_rectangle(const std::vector<Eigen::Vector2d>& hull) {
 
 }  // namespace
 
-std::string_view to_string(ChangeKind kind) { return name_of(kKinds, kind); }
-ChangeKind parse_change_kind(std::string_view name) { return value_of(kKinds, name, "kind"); }
+std::string_view to_string(ChangeKind kind) { return name_of(kKindNames, kind); }
+ChangeKind parse_change_kind(std::string_view name) { return value_of(kKindNames, name, "kind"); }
 
 OrientedBox bounding_box(const Eigen::Matrix3Xd& points_m) {
   std::vector<Eigen::Vector2d> plan;

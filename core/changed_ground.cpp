@@ -8,7 +8,6 @@
 namespace raywatch {
 namespace {
 
-constexpr double kTwoSided95 = 1.96;
 /// After the first judgement with the poses as told: what is unchanged hardly moves after these.
 constexpr int kRounds = 2;
 

@@ -15,7 +15,7 @@ namespace chrono = std::chrono;
 
 constexpr std::array<std::string_view, 12> kMonths{"jan", "feb", "mar", "apr", "may", "jun",
                                                    "jul", "aug", "sep", "oct", "nov", "dec"};
-constexpr std::array<std::string_view, 7> kWeekdays{"sun", "mon", "tue", "wed", "thu", "fri", "sat"};
+constexpr std::array<std::string_view, 7> kCronWeekdays{"sun", "mon", "tue", "wed", "thu", "fri", "sat"};
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kWords{{{"@hourly", "0 * * * *"},
                                                                                {"@daily", "0 0 * * *"},
                                                                                {"@midnight", "0 0 * * *"},
@@ -36,7 +36,7 @@ constexpr std::array<FieldKind, 5> kFields{{{"minute", 0, 59},
                                             {"hour", 0, 23},
                                             {"day of the month", 1, 31},
                                             {"month", 1, 12, kMonths},
-                                            {"day of the week", 0, 7, kWeekdays}}};
+                                            {"day of the week", 0, 7, kCronWeekdays}}};
 
 [[noreturn]] void refuse(const std::string& what) {
   throw InvalidInput("The schedule is no cron expression: " + what, {{"cron", what}});

@@ -16,7 +16,7 @@
 namespace raywatch {
 namespace {
 
-constexpr std::size_t kGrain = 16384;
+constexpr std::size_t kClassGrain = 16384;
 
 /// One comparison's asking; its steps in the order in which `detect` runs them.
 class Detector {
@@ -83,7 +83,7 @@ class Detector {
 
   std::vector<PointClass> fold(std::span<const std::uint8_t> valid, std::span<const Answers> answers) const {
     std::vector<PointClass> classes(scan_.points.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, classes.size(), kGrain), [&](const auto& block) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, classes.size(), kClassGrain), [&](const auto& block) {
       if (parameters_.grouping == Grouping::union_) {
         fold_union(answers, epochs_, block.begin(), std::span(classes).subspan(block.begin(), block.size()));
       } else {
@@ -141,7 +141,7 @@ class Detector {
     const std::size_t n = scan_.points.size();
     detection.free.resize(n);
     detection.supported.resize(n);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, kGrain), [&](const auto& block) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, kClassGrain), [&](const auto& block) {
       for (const Answers& of_prior : detection.answers) {
         for (std::size_t i = block.begin(); i < block.end(); ++i) {
           detection.free[i] = static_cast<std::uint8_t>(detection.free[i] + (of_prior[i] == Answer::free));

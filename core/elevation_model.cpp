@@ -296,7 +296,6 @@ double pose_variance_m2(const ElevationModel& model, std::size_t cell) {
 }
 
 std::vector<DifferenceCell> difference_of(const ElevationModel& before, const ElevationModel& after) {
-  constexpr double kTwoSided95 = 1.96;
   std::vector<DifferenceCell> cells(before.cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const ElevationCell& earlier = before.cells[i];

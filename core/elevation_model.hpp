@@ -9,6 +9,9 @@
 
 namespace raywatch {
 
+/// So many standard errors on either side of a value hold it with 95 %.
+constexpr double kTwoSided95 = 1.96;
+
 /// What stands for the height of a cell.
 enum class CellHeight : std::uint8_t {
   mean,    ///< of its quarters', each brought to the quarter's middle along the slope of the ground

@@ -9,8 +9,6 @@
 namespace raywatch {
 namespace {
 
-constexpr double kTwoSided95 = 1.96;
-
 HeightBounds own_bounds(const ElevationModel& model, std::size_t cell, const Prism& prism) {
   const auto inside = [&](double height_m) { return std::clamp(height_m, prism.z_min_m, prism.z_max_m); };
   const ElevationCell& at = model.cells[cell];

@@ -23,12 +23,12 @@ struct Joined {
 };
 
 /// A point beside one that has joined.
-struct Neighbour {
+struct JoinedNeighbour {
   Joined joins;
   float distance_m;  ///< from the seed
 };
 
-bool is_nearer(const Neighbour& a, const Neighbour& b) {
+bool is_nearer(const JoinedNeighbour& a, const JoinedNeighbour& b) {
   return std::tie(a.joins.index, a.distance_m, a.joins.seed) < std::tie(b.joins.index, b.distance_m, b.joins.seed);
 }
 
@@ -71,13 +71,13 @@ class Growth {
  private:
   /// The points not yet visited that are within reach of the front, each from the nearest seed, by index.
   std::vector<Joined> beside(std::span<const Joined> front) const {
-    std::vector<std::vector<Neighbour>> found(front.size());
+    std::vector<std::vector<JoinedNeighbour>> found(front.size());
     tbb::parallel_for(std::size_t{0}, front.size(), [&](std::size_t k) { found[k] = neighbours(front[k]); });
-    std::vector<Neighbour> all;
+    std::vector<JoinedNeighbour> all;
     for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
     std::sort(all.begin(), all.end(), is_nearer);
     std::vector<Joined> result;
-    for (const Neighbour& neighbour : all) {
+    for (const JoinedNeighbour& neighbour : all) {
       if (result.empty() || result.back().index != neighbour.joins.index) result.push_back(neighbour.joins);
     }
     return result;
@@ -91,12 +91,12 @@ class Growth {
     return std::min(reach_m(view_, place_m, parameters_), static_cast<float>(dense_m));
   }
 
-  std::vector<Neighbour> neighbours(const Joined& from) const {
+  std::vector<JoinedNeighbour> neighbours(const Joined& from) const {
     const PriorIndex::Impl& index = view_.index.impl();
     const Eigen::Vector3f place_m = view_.points[from.index], seed_m = view_.points[from.seed];
     const float reach = step_m(place_m);
     const float farthest_m = std::max(static_cast<float>(parameters_.growth_distance_m), reach);
-    std::vector<Neighbour> result;
+    std::vector<JoinedNeighbour> result;
     const auto offer = [&](std::uint32_t i) {
       if ((*visited_)[sources_[i]]) return;
       const float distance_m = (point_of(index.returns[i]).cast<float>() - seed_m).norm();

@@ -13,10 +13,10 @@ constexpr Names<Severity, 4> kSeverities{{{Severity::info, "info"},
                                           {Severity::advisory, "advisory"},
                                           {Severity::warning, "warning"},
                                           {Severity::critical, "critical"}}};
-constexpr Names<AlertState, 4> kStates{{{AlertState::open, "open"},
-                                        {AlertState::acknowledged, "acknowledged"},
-                                        {AlertState::snoozed, "snoozed"},
-                                        {AlertState::resolved, "resolved"}}};
+constexpr Names<AlertState, 4> kAlertStates{{{AlertState::open, "open"},
+                                             {AlertState::acknowledged, "acknowledged"},
+                                             {AlertState::snoozed, "snoozed"},
+                                             {AlertState::resolved, "resolved"}}};
 
 const Zone* find_zone(std::span<const Zone> zones, ZoneId id) {
   const auto found = std::find_if(zones.begin(), zones.end(), [&](const Zone& zone) { return zone.id == id; });
@@ -73,8 +73,8 @@ std::optional<AlertStep> judge_seen(const JudgedScan& scan, const Track& track, 
 
 std::string_view to_string(Severity severity) { return name_of(kSeverities, severity); }
 Severity parse_severity(std::string_view name) { return value_of(kSeverities, name, "severity"); }
-std::string_view to_string(AlertState state) { return name_of(kStates, state); }
-AlertState parse_alert_state(std::string_view name) { return value_of(kStates, name, "state"); }
+std::string_view to_string(AlertState state) { return name_of(kAlertStates, state); }
+AlertState parse_alert_state(std::string_view name) { return value_of(kAlertStates, name, "state"); }
 
 void check_rule(const Rule& rule) {
   std::vector<FieldError> errors;

@@ -31,7 +31,7 @@ struct TangentPlane {
 };
 
 /// Another return beside one.
-struct Neighbour {
+struct NearestReturn {
   double squared = std::numeric_limits<double>::infinity();  ///< of the angular distance (tangents)
   double range_m = std::numeric_limits<double>::infinity();
 
@@ -41,7 +41,7 @@ struct Neighbour {
 /// The neighbours of a return on either side, and above and below: the nearest return in each quarter of the directions
 /// around it.
 struct Neighbours {
-  Neighbour east, west, north, south;
+  NearestReturn east, west, north, south;
   std::size_t looked_at = 0;
 
   bool complete() const { return std::isfinite(std::max({east.squared, west.squared, north.squared, south.squared})); }
@@ -49,7 +49,7 @@ struct Neighbours {
     constexpr double kSame_rad = 1e-6;  // the return itself, or a second echo of the same shot
     const double squared = eastward * eastward + northward * northward;
     if (squared < kSame_rad * kSame_rad) return;
-    Neighbour& nearest =
+    NearestReturn& nearest =
         std::abs(eastward) >= std::abs(northward) ? (eastward > 0.0 ? east : west) : (northward > 0.0 ? north : south);
     if (std::tie(squared, range_m) < std::tie(nearest.squared, nearest.range_m)) nearest = {squared, range_m};
   }

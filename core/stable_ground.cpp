@@ -14,11 +14,11 @@ std::string text(const char* format, Values... values) {
 }
 
 /// The stable part of a scan, as a scan.
-struct Part {
+struct StablePart {
   PointCloud points;
   PriorIndex index;
 
-  Part(const ScanView& scan, std::span<const std::uint32_t> places)
+  StablePart(const ScanView& scan, std::span<const std::uint32_t> places)
       : points(points_at(scan, places)), index(PriorIndex::build(points, scan.index.usable())) {}
   static PointCloud points_at(const ScanView& scan, std::span<const std::uint32_t> places) {
     PointCloud points;
@@ -100,7 +100,7 @@ StableRegistration register_on(const ScanView& scan, std::span<const std::uint32
         stable.size(), parameters.least_points);
     return result;
   }
-  const Part part(scan, stable);
+  const StablePart part(scan, stable);
   result.alignment = align(part.view(scan), references, parameters.align);
   result.refused = refusal(result.alignment, parameters.tolerance);
   return result;

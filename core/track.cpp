@@ -10,7 +10,7 @@
 namespace raywatch {
 namespace {
 
-constexpr Names<TrackState, 3> kStates{
+constexpr Names<TrackState, 3> kTrackStates{
     {{TrackState::open, "open"}, {TrackState::gone, "gone"}, {TrackState::accepted, "accepted"}}};
 constexpr Names<Sight, 3> kSights{{{Sight::seen, "seen"}, {Sight::absent, "absent"}, {Sight::unseen, "unseen"}}};
 
@@ -66,8 +66,8 @@ std::vector<Pair> possible_pairs(std::span<const Track> tracks, std::span<const 
 
 }  // namespace
 
-std::string_view to_string(TrackState state) { return name_of(kStates, state); }
-TrackState parse_track_state(std::string_view name) { return value_of(kStates, name, "state"); }
+std::string_view to_string(TrackState state) { return name_of(kTrackStates, state); }
+TrackState parse_track_state(std::string_view name) { return value_of(kTrackStates, name, "state"); }
 std::string_view to_string(Sight sight) { return name_of(kSights, sight); }
 
 Track begin_track(const Change& change, std::vector<Eigen::Vector3f> sample_m, Time at) {

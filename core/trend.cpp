@@ -14,7 +14,7 @@ constexpr Names<Level, kLevels> kLevelNames{
 
 using Days = std::chrono::duration<double, std::ratio<86400>>;
 
-struct Sample {
+struct TrendSample {
   double t;
   double y;
 };
@@ -30,20 +30,20 @@ struct Line {
   double variance() const { return residual2 / (n - 2.0); }
 };
 
-Line fit_line(std::span<const Sample> samples) {
+Line fit_line(std::span<const TrendSample> samples) {
   Line line{.n = static_cast<double>(samples.size())};
-  for (const Sample& s : samples) {
+  for (const TrendSample& s : samples) {
     line.mean_t += s.t / line.n;
     line.mean_y += s.y / line.n;
   }
   double sty = 0.0;
-  for (const Sample& s : samples) {
+  for (const TrendSample& s : samples) {
     line.stt += (s.t - line.mean_t) * (s.t - line.mean_t);
     sty += (s.t - line.mean_t) * (s.y - line.mean_y);
     line.deviation2 += (s.y - line.mean_y) * (s.y - line.mean_y);
   }
   line.slope = sty / line.stt;
-  for (const Sample& s : samples) {
+  for (const TrendSample& s : samples) {
     const double off = s.y - line.mean_y - line.slope * (s.t - line.mean_t);
     line.residual2 += off * off;
   }
@@ -115,7 +115,7 @@ std::vector<Velocity> velocities(std::span<const TrendValue> series, const Veloc
     if (series[i].at <= series[i - 1].at) throw InvalidInput("The values of a series must be in the order of time.");
   }
   std::vector<Velocity> result;
-  std::vector<Sample> samples;
+  std::vector<TrendSample> samples;
   std::size_t first = 0;
   for (std::size_t i = 0; i < series.size(); ++i) {
     while (between(series[first].at, series[i].at) > parameters.window) ++first;
@@ -136,7 +136,7 @@ std::optional<FailureForecast> forecast_failure(std::span<const Velocity> veloci
   while (first > 0 && velocities[first - 1].per_day > least_per_day) --first;
   if (velocities.size() - first < std::max<std::size_t>(parameters.least_values, 5)) return std::nullopt;
   const Time start = velocities.back().at;
-  std::vector<Sample> samples;
+  std::vector<TrendSample> samples;
   for (const Velocity& v : velocities.subspan(first)) samples.push_back({days_since(start, v.at), 1.0 / v.per_day});
   const Line line = fit_line(samples);
   const std::optional<Zero> zero = zero_of(line);

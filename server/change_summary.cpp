@@ -12,36 +12,35 @@
 namespace raywatch {
 namespace {
 
-using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 /// @throws Error with the server's words when there is nothing.
-Json get(ServerClient& server, const std::string& path) {
+nlohmann::json get(ServerClient& server, const std::string& path) {
   const ServerReply reply = server.get("/api/v1" + path);
   if (!reply.ok()) throw Error(reply.problem());
-  return Json::parse(reply.body);
+  return nlohmann::json::parse(reply.body);
 }
 
-bool is_compared(const Json& scan) {
-  return std::ranges::all_of(scan.at("comparisons"), [](const Json& comparison) {
+bool is_compared(const nlohmann::json& scan) {
+  return std::ranges::all_of(scan.at("comparisons"), [](const nlohmann::json& comparison) {
     const std::string state = comparison.at("state");
     return state == "done" || state == "failed";
   });
 }
 
 /// "2 added, 1 removed".
-std::string kinds_of(const Json& changes) {
+std::string kinds_of(const nlohmann::json& changes) {
   std::map<std::string, std::size_t> counts;
-  for (const Json& change : changes.at("items")) ++counts[change.at("kind")];
+  for (const nlohmann::json& change : changes.at("items")) ++counts[change.at("kind")];
   std::string text;
   for (const auto& [kind, count] : counts) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
   return changes.at("next").is_null() ? text : text + ", and more";
 }
 
 /// @param id of the comparison with what was before; null when there is none
-std::string outcome_of(ServerClient& server, const Json& id) {
+std::string outcome_of(ServerClient& server, const nlohmann::json& id) {
   if (id.is_null()) return "not compared";
-  const Json comparison = get(server, "/comparisons/" + id.dump());
+  const nlohmann::json comparison = get(server, "/comparisons/" + id.dump());
   if (comparison.at("state") == "failed")
     return "its comparison failed: " + comparison.at("failure").get<std::string>();
   if (comparison.at("priors").empty()) return "no earlier scan to compare it with";
@@ -54,7 +53,7 @@ std::string outcome_of(ServerClient& server, const Json& id) {
 /// What is known about a scan when `end` comes, or before.
 std::string outcome_until(ServerClient& server, std::int64_t id, Clock::time_point end) {
   for (;;) {
-    const Json scan = get(server, "/scans/" + std::to_string(id));
+    const nlohmann::json scan = get(server, "/scans/" + std::to_string(id));
     if (is_compared(scan)) return outcome_of(server, scan.at("comparison"));
     if (Clock::now() >= end) return "still being compared";
     std::this_thread::sleep_for(std::chrono::milliseconds(100));

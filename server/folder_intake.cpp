@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// How long nothing is taken in after the disk was full, or the store failed.
-constexpr std::chrono::seconds kRest{5};
+constexpr std::chrono::seconds kIntakeRest{5};
 
 void write_text(const fs::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
@@ -182,7 +182,7 @@ void FolderIntake::take_in_all(const std::vector<Ready>& files, Clock::time_poin
       return;
     } catch (const StorageError& error) {  // the disk is full, or fails
       complain(error.what());
-      not_before_ = now + kRest;
+      not_before_ = now + kIntakeRest;
       return;
     }
   }

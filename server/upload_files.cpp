@@ -16,7 +16,6 @@ namespace raywatch {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 void add_directory(const fs::path& directory, std::vector<fs::path>& files) {
   const std::size_t before = files.size();
@@ -56,7 +55,7 @@ ServerClient::Query query_of(const fs::path& file, const ScanHints& hints, const
 }
 
 /// Makes one thing of the server; that it is there already is as good.
-void create(ServerClient& server, const std::string& path, const Json& what) {
+void create(ServerClient& server, const std::string& path, const nlohmann::json& what) {
   const ServerReply reply = server.post_json(path, what.dump());
   if (!reply.ok() && reply.status != 409) throw Error(path + ": " + reply.problem());
 }
@@ -64,7 +63,7 @@ void create(ServerClient& server, const std::string& path, const Json& what) {
 /// Sees to it that uploads of `sensor` can be accepted.
 void prepare_sensor(ServerClient& server, const std::string& sensor, const UploadOptions& options) {
   const ServerReply found = server.get("/api/v1/sensors/" + path_segment(sensor));
-  const Json answer = Json::parse(found.body, nullptr, false);
+  const nlohmann::json answer = nlohmann::json::parse(found.body, nullptr, false);
   if (!answer.is_object()) throw Error("what answers is no raywatch daemon; --server names another address");
   if (found.ok()) {
     const std::string site = answer.value("site", "");
@@ -76,7 +75,7 @@ void prepare_sensor(ServerClient& server, const std::string& sensor, const Uploa
   if (found.status != 404) throw Error("sensor \"" + sensor + "\": " + found.problem());
   if (!options.create) throw Error("there is no sensor \"" + sensor + "\"; --create with --site makes it");
   if (!options.site) throw InvalidInput("--create needs --site, the site that the sensor belongs to");
-  Json site = {{"name", *options.site}};
+  nlohmann::json site = {{"name", *options.site}};
   if (options.profile) site["profile"] = *options.profile;
   create(server, "/api/v1/sites", site);
   create(server, "/api/v1/sensors", {{"name", sensor}, {"site", *options.site}});
@@ -106,10 +105,10 @@ ServerReply send_patiently(ServerClient& server, const fs::path& file, const Ser
 
 /// The ids in the answer to an upload: one scan, or a list of them.
 std::vector<std::int64_t> scan_ids(const std::string& body) {
-  const Json json = Json::parse(body);
+  const nlohmann::json json = nlohmann::json::parse(body);
   if (json.contains("id")) return {json["id"].get<std::int64_t>()};
   std::vector<std::int64_t> ids;
-  for (const Json& scan : json.at("items")) ids.push_back(scan.at("id").get<std::int64_t>());
+  for (const nlohmann::json& scan : json.at("items")) ids.push_back(scan.at("id").get<std::int64_t>());
   return ids;
 }
 

@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// How long a site rests after passing trouble.
-constexpr std::chrono::seconds kRest{5};
+constexpr std::chrono::seconds kSiteRest{5};
 
 }  // namespace
 
@@ -58,7 +58,7 @@ void Workers::work(const std::stop_token& stop) {
     if (job) {
       run_to_the_end(*job, arena, stop);
     } else if (!stop.stop_requested()) {
-      signal_.wait_past(seen, Clock::now() + kRest);
+      signal_.wait_past(seen, Clock::now() + kSiteRest);
     }
   }
   const std::lock_guard lock(alive_mutex_);
@@ -121,7 +121,7 @@ void Workers::settle(const Job& job, const Outcome& outcome, const std::stop_tok
                again ? "is put back" : "failed", outcome.why);
   if (again) {
     const std::lock_guard lock(sites_mutex_);
-    resting_until_[job.site] = Clock::now() + kRest;
+    resting_until_[job.site] = Clock::now() + kSiteRest;
   } else {
     ++failed_;
   }
@@ -133,7 +133,7 @@ void Workers::settle(const Job& job, const Outcome& outcome, const std::stop_tok
       });
     } catch (const Error& error) {
       spdlog::error("the end of comparison {} cannot be stored yet: {}", job.comparison.value, error.what());
-      signal_.wait_past(signal_.generation(), Clock::now() + kRest);
+      signal_.wait_past(signal_.generation(), Clock::now() + kSiteRest);
     }
   }
 }

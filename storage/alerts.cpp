@@ -11,8 +11,8 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "alerts";
-const std::string kSelect =
+constexpr std::string_view kAlertList = "alerts";
+const std::string kSelectAlerts =
     "SELECT id, site, cause, subject, title, state, severity, track, rule, zone, sensor, scan, rule_name, rule_spec, "
     "auto_resolve, resolved_as_gone, opened_at, edited_at, snoozed_until FROM alerts ";
 
@@ -122,7 +122,7 @@ AlertRecord change_alert(Transaction& transaction, AlertId id, const AlertChange
 }
 
 std::optional<AlertRecord> find_alert(const Snapshot& snapshot, AlertId id) {
-  Statement row(database_of(snapshot), kSelect + "WHERE id = ?");
+  Statement row(database_of(snapshot), kSelectAlerts + "WHERE id = ?");
   row.bind(id);
   return one_of(row);
 }
@@ -147,19 +147,19 @@ std::vector<AlertHistoryStep> alert_history(const Snapshot& snapshot, AlertId id
 }
 
 Page<AlertRecord> list_alerts(const Snapshot& snapshot, const AlertFilter& filter, const PageRequest& page) {
-  const auto [before] = key_before<1>(page, kList, {std::numeric_limits<std::int64_t>::max()});
-  Statement rows(database_of(snapshot), kSelect + where(filter) + "id < ? ORDER BY id DESC LIMIT ?");
+  const auto [before] = key_before<1>(page, kAlertList, {std::numeric_limits<std::int64_t>::max()});
+  Statement rows(database_of(snapshot), kSelectAlerts + where(filter) + "id < ? ORDER BY id DESC LIMIT ?");
   if (filter.site) rows.bind(*filter.site);
   if (filter.state) rows.bind(to_string(*filter.state));
   if (filter.severity) rows.bind(to_string(*filter.severity));
   rows.bind(before, rows_to_read(page));
   std::vector<AlertRecord> alerts;
   while (rows.next()) alerts.push_back(read_alert(rows));
-  return make_page(std::move(alerts), page, kList, [](const AlertRecord& a) { return std::array{a.id.value}; });
+  return make_page(std::move(alerts), page, kAlertList, [](const AlertRecord& a) { return std::array{a.id.value}; });
 }
 
 std::vector<AlertRecord> alerts_of(const Snapshot& snapshot, TrackId track) {
-  Statement rows(database_of(snapshot), kSelect + "INDEXED BY alerts_by_track WHERE track = ? ORDER BY rule");
+  Statement rows(database_of(snapshot), kSelectAlerts + "INDEXED BY alerts_by_track WHERE track = ? ORDER BY rule");
   rows.bind(track);
   std::vector<AlertRecord> alerts;
   while (rows.next()) alerts.push_back(read_alert(rows));
@@ -169,7 +169,7 @@ std::vector<AlertRecord> alerts_of(const Snapshot& snapshot, TrackId track) {
 std::optional<AlertRecord> standing_alert(const Snapshot& snapshot, SiteId site, std::string_view cause,
                                           std::string_view subject) {
   Statement row(database_of(snapshot),
-                kSelect +
+                kSelectAlerts +
                     "INDEXED BY alerts_standing WHERE site = ? AND cause = ? AND subject = ? AND track IS NULL "
                     "AND state <> 'resolved'");
   row.bind(site, cause, subject);

@@ -13,7 +13,7 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "baselines", kLatestList = "latest-baselines";
+constexpr std::string_view kBaselineList = "baselines", kLatestList = "latest-baselines";
 constexpr Names<BaselineOrigin, 3> kOrigins{
     {{BaselineOrigin::learned, "learned"}, {BaselineOrigin::joined, "joined"}, {BaselineOrigin::accepted, "accepted"}}};
 const std::string kSelectVersions = "SELECT site, version, kind, made_at, actor, note FROM baselines ";
@@ -124,11 +124,12 @@ std::vector<BaselineEntry> baseline_entries(const Snapshot& snapshot, SiteId sit
 }
 
 Page<BaselineVersion> list_baselines(const Snapshot& snapshot, SiteId site, const PageRequest& page) {
-  const auto [before] = key_before<1>(page, kList, {std::numeric_limits<std::int64_t>::max()});
+  const auto [before] = key_before<1>(page, kBaselineList, {std::numeric_limits<std::int64_t>::max()});
   Statement rows(database_of(snapshot),
                  kSelectVersions + "WHERE site = ? AND version < ? ORDER BY version DESC LIMIT ?");
   rows.bind(site, before, rows_to_read(page));
-  return make_page(all_versions(rows), page, kList, [](const BaselineVersion& v) { return std::array{v.version}; });
+  return make_page(all_versions(rows), page, kBaselineList,
+                   [](const BaselineVersion& v) { return std::array{v.version}; });
 }
 
 Page<BaselineVersion> latest_baselines(const Snapshot& snapshot, const PageRequest& page) {

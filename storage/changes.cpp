@@ -12,8 +12,8 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "changes";
-const std::string kColumns =
+constexpr std::string_view kChangeList = "changes";
+const std::string kChangeColumns =
     "c.id, c.comparison, c.place, c.site, c.scan, c.captured_at, c.track, c.kind, c.centroid_x_m, c.centroid_y_m, "
     "c.centroid_z_m, c.min_x_m, c.min_y_m, c.min_z_m, c.max_x_m, c.max_y_m, c.max_z_m, c.box_pose, c.box_x_m, "
     "c.box_y_m, c.box_z_m, c.volume_m3, c.points, c.confidence, c.free, c.supported, c.unknown";
@@ -57,24 +57,25 @@ ChangeId insert_change(Database& database, const ComparisonRecord& comparison, T
   return id;
 }
 
-using Key = std::array<std::int64_t, 3>;  ///< captured_at, comparison, place
-Key key_of(const ChangeRecord& record) {
+using ChangeKey = std::array<std::int64_t, 3>;  ///< captured_at, comparison, place
+ChangeKey key_of_change(const ChangeRecord& record) {
   return {record.captured_at.time_since_epoch().count(), record.comparison.value, record.place};
 }
 
 /// The part of the list to read: from <= captured_at, and behind a key (older, or of that time and with a later rest).
-struct Span {
+struct ChangeSpan {
   std::int64_t from;
-  Key after;
+  ChangeKey after;
 };
 
-Span span_of(const ChangeFilter& filter, const PageRequest& page) {
+ChangeSpan span_of(const ChangeFilter& filter, const PageRequest& page) {
   constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
   constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
   const std::int64_t from = filter.from ? filter.from->time_since_epoch().count() : kMin;
   // Behind every change of the time `to`; without `to`, before all.
-  const Key start = filter.to ? Key{filter.to->time_since_epoch().count(), kMax, kMax} : Key{kMax, 0, 0};
-  const Key cursor = key_before(page, kList, start);
+  const ChangeKey start =
+      filter.to ? ChangeKey{filter.to->time_since_epoch().count(), kMax, kMax} : ChangeKey{kMax, 0, 0};
+  const ChangeKey cursor = key_before(page, kChangeList, start);
   // A cursor was given within the same `to`; the earlier time goes farther.
   return {from, cursor[0] <= start[0] ? cursor : start};
 }
@@ -153,10 +154,10 @@ std::vector<ChangeId> insert_changes(Transaction& transaction, const ComparisonR
 
 Page<ChangeRecord> list_changes(const Snapshot& snapshot, const ChangeFilter& filter, const PageRequest& page) {
   if (filter.box_m && !filter.site) throw InvalidInput("a box needs a site", {{"box", "needs \"site\""}});
-  const Span span = span_of(filter, page);
+  const ChangeSpan span = span_of(filter, page);
   Statement rows(
       database_of(snapshot),
-      "SELECT " + kColumns + " FROM " + tables(snapshot, filter) + conditions(filter) +
+      "SELECT " + kChangeColumns + " FROM " + tables(snapshot, filter) + conditions(filter) +
           "c.captured_at BETWEEN ?11 AND ?12 AND (c.captured_at < ?12 OR (c.comparison, c.place) > (?13, ?14)) "
           "ORDER BY " +
           order(filter) + " LIMIT ?15");
@@ -165,7 +166,7 @@ Page<ChangeRecord> list_changes(const Snapshot& snapshot, const ChangeFilter& fi
   if (filter.track) rows.bind(*filter.track);
   std::vector<ChangeRecord> changes;
   while (rows.next()) changes.push_back(read_change(rows));
-  return make_page(std::move(changes), page, kList, key_of);
+  return make_page(std::move(changes), page, kChangeList, key_of_change);
 }
 
 void set_track(Transaction& transaction, ChangeId id, TrackId track) {
@@ -174,7 +175,7 @@ void set_track(Transaction& transaction, ChangeId id, TrackId track) {
 
 std::vector<ChangeRecord> changes_of_track(const Snapshot& snapshot, TrackId track, ScanId scan) {
   Statement rows(database_of(snapshot),
-                 "SELECT " + kColumns +
+                 "SELECT " + kChangeColumns +
                      " FROM changes AS c INDEXED BY changes_by_track WHERE c.track = ?1 AND "
                      "c.captured_at = (SELECT captured_at FROM scans WHERE id = ?2) AND c.scan = ?2 "
                      "AND c.watching = 1 ORDER BY c.comparison, c.place");
@@ -185,7 +186,7 @@ std::vector<ChangeRecord> changes_of_track(const Snapshot& snapshot, TrackId tra
 }
 
 std::optional<ChangeRecord> find_change(const Snapshot& snapshot, ChangeId id) {
-  Statement row(database_of(snapshot), "SELECT " + kColumns + " FROM changes AS c WHERE c.id = ?");
+  Statement row(database_of(snapshot), "SELECT " + kChangeColumns + " FROM changes AS c WHERE c.id = ?");
   if (!row.bind(id).next()) return std::nullopt;
   return read_change(row);
 }

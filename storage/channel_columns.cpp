@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-struct Writer {
+struct SettingsToJson {
   Json operator()(const WebhookSettings& s) const { return {{"url", s.url}, {"secrets", s.secrets}}; }
   Json operator()(const MailSettings& s) const {
     return {{"host", s.host}, {"port", s.port},         {"security", to_string(s.security)},
@@ -60,7 +60,7 @@ ChannelSettings read_settings(ChannelKind kind, const Json& json) {
 
 }  // namespace
 
-std::string settings_json(const ChannelSettings& settings) { return std::visit(Writer{}, settings).dump(); }
+std::string settings_json(const ChannelSettings& settings) { return std::visit(SettingsToJson{}, settings).dump(); }
 
 ChannelSettings settings_from_json(ChannelKind kind, const std::string& text) {
   try {

@@ -19,9 +19,9 @@ constexpr Names<ChannelKind, 3> kKinds{
 constexpr Names<MailSecurity, 3> kSecurities{
     {{MailSecurity::none, "none"}, {MailSecurity::starttls, "starttls"}, {MailSecurity::tls, "tls"}}};
 
-constexpr std::string_view kList = "channels";
+constexpr std::string_view kChannelList = "channels";
 constexpr std::int64_t kMostChannels = 50;
-const std::string kSelect =
+const std::string kSelectChannels =
     "SELECT id, name, kind, settings, enabled, site, min_severity, events, per_minute, revision, trouble, "
     "failing_since, actor, created_at, edited_at FROM channels ";
 
@@ -74,24 +74,25 @@ ChannelRecord insert_channel(Transaction& transaction, const ChannelRecord& chan
 }
 
 std::optional<ChannelRecord> find_channel(const Snapshot& snapshot, ChannelId id) {
-  Statement row(database_of(snapshot), kSelect + "WHERE id = ?");
+  Statement row(database_of(snapshot), kSelectChannels + "WHERE id = ?");
   if (!row.bind(id).next()) return std::nullopt;
   return read_channel(row);
 }
 
 Page<ChannelRecord> list_channels(const Snapshot& snapshot, std::optional<SiteId> site, const PageRequest& page) {
-  const auto [after] = key_before<1>(page, kList, {0});
+  const auto [after] = key_before<1>(page, kChannelList, {0});
   // Channels are made by people: there are few.
   Statement rows(database_of(snapshot),
-                 kSelect + "WHERE id > ?1 AND (?2 IS NULL OR site IS NULL OR site = ?2) ORDER BY id LIMIT ?3");
+                 kSelectChannels + "WHERE id > ?1 AND (?2 IS NULL OR site IS NULL OR site = ?2) ORDER BY id LIMIT ?3");
   rows.bind(after, site, rows_to_read(page));
   std::vector<ChannelRecord> channels;
   while (rows.next()) channels.push_back(read_channel(rows));
-  return make_page(std::move(channels), page, kList, [](const ChannelRecord& c) { return std::array{c.id.value}; });
+  return make_page(std::move(channels), page, kChannelList,
+                   [](const ChannelRecord& c) { return std::array{c.id.value}; });
 }
 
 std::vector<ChannelRecord> enabled_channels(const Snapshot& snapshot) {
-  Statement rows(database_of(snapshot), kSelect + "WHERE id > 0 AND enabled = 1 ORDER BY id");
+  Statement rows(database_of(snapshot), kSelectChannels + "WHERE id > 0 AND enabled = 1 ORDER BY id");
   std::vector<ChannelRecord> channels;
   while (rows.next()) channels.push_back(read_channel(rows));
   return channels;

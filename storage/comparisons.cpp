@@ -13,8 +13,8 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "comparisons";
-const std::string kSelect =
+constexpr std::string_view kComparisonList = "comparisons";
+const std::string kSelectComparisons =
     "SELECT id, scan, site, state, failure, reference, parameters, watching, counts, testable, changes, timings_ms, "
     "warnings, "
     "payload_file, payload_key, created_at, finished_at FROM comparisons ";
@@ -136,27 +136,28 @@ ComparisonRecord insert_comparison(Transaction& transaction, ScanId scan, const 
 }
 
 std::optional<ComparisonRecord> find_comparison(const Snapshot& snapshot, ComparisonId id) {
-  Statement row(database_of(snapshot), kSelect + "WHERE id = ?");
+  Statement row(database_of(snapshot), kSelectComparisons + "WHERE id = ?");
   if (!row.bind(id).next()) return std::nullopt;
   return read_comparison(snapshot, row);
 }
 
 Page<ComparisonRecord> list_comparisons(const Snapshot& snapshot, const ComparisonFilter& filter,
                                         const PageRequest& page) {
-  const auto [before] = key_before<1>(page, kList, {std::numeric_limits<std::int64_t>::max()});
-  Statement rows(database_of(snapshot), kSelect + where(filter) + "id < ? ORDER BY id DESC LIMIT ?");
+  const auto [before] = key_before<1>(page, kComparisonList, {std::numeric_limits<std::int64_t>::max()});
+  Statement rows(database_of(snapshot), kSelectComparisons + where(filter) + "id < ? ORDER BY id DESC LIMIT ?");
   if (filter.scan) rows.bind(*filter.scan);
   if (filter.site) rows.bind(*filter.site);
   if (filter.state) rows.bind(to_string(*filter.state));
   rows.bind(before, rows_to_read(page));
   std::vector<ComparisonRecord> comparisons;
   while (rows.next()) comparisons.push_back(read_comparison(snapshot, rows));
-  return make_page(std::move(comparisons), page, kList,
+  return make_page(std::move(comparisons), page, kComparisonList,
                    [](const ComparisonRecord& comparison) { return std::array{comparison.id.value}; });
 }
 
 std::vector<ComparisonRecord> comparisons_of(const Snapshot& snapshot, ScanId scan) {
-  Statement rows(database_of(snapshot), kSelect + "INDEXED BY comparisons_by_scan WHERE scan = ? ORDER BY id");
+  Statement rows(database_of(snapshot),
+                 kSelectComparisons + "INDEXED BY comparisons_by_scan WHERE scan = ? ORDER BY id");
   rows.bind(scan);
   std::vector<ComparisonRecord> comparisons;
   while (rows.next()) comparisons.push_back(read_comparison(snapshot, rows));

@@ -12,12 +12,12 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "deletions";
+constexpr std::string_view kDeletionList = "deletions";
 constexpr Names<DeletionReason, 4> kReasons{{{DeletionReason::by_operator, "operator"},
                                              {DeletionReason::age, "age"},
                                              {DeletionReason::bytes, "bytes"},
                                              {DeletionReason::free_disk, "free_disk"}}};
-const std::string kSelect =
+const std::string kSelectDeletions =
     "SELECT id, at, what, reason, site, sensor, scan, captured_at, received_at, records, bytes FROM deletions ";
 constexpr std::array<const char*, 2> kLogs{"events", "deletions"};
 
@@ -111,15 +111,15 @@ void record_deleted_scan(Transaction& transaction, const ScanRecord& scan, std::
 }
 
 Page<DeletionRecord> list_deletions(const Snapshot& snapshot, std::optional<SiteId> site, const PageRequest& page) {
-  const auto [before] = key_before<1>(page, kList, {std::numeric_limits<std::int64_t>::max()});
-  Statement rows(database_of(snapshot), kSelect +
+  const auto [before] = key_before<1>(page, kDeletionList, {std::numeric_limits<std::int64_t>::max()});
+  Statement rows(database_of(snapshot), kSelectDeletions +
                                             (site ? "INDEXED BY deletions_by_site WHERE site = ? AND " : "WHERE ") +
                                             "id < ? ORDER BY id DESC LIMIT ?");
   if (site) rows.bind(*site);
   rows.bind(before, rows_to_read(page));
   std::vector<DeletionRecord> deletions;
   while (rows.next()) deletions.push_back(read_deletion(rows));
-  return make_page(std::move(deletions), page, kList, [](const DeletionRecord& d) { return std::array{d.id}; });
+  return make_page(std::move(deletions), page, kDeletionList, [](const DeletionRecord& d) { return std::array{d.id}; });
 }
 
 std::uint64_t prune_logs(Transaction& transaction, Time horizon, Time now) {

@@ -13,14 +13,14 @@
 namespace raywatch {
 namespace {
 
-constexpr Names<DeliveryState, 5> kStates{{{DeliveryState::pending, "pending"},
-                                           {DeliveryState::sending, "sending"},
-                                           {DeliveryState::delivered, "delivered"},
-                                           {DeliveryState::failed, "failed"},
-                                           {DeliveryState::dropped, "dropped"}}};
+constexpr Names<DeliveryState, 5> kDeliveryStates{{{DeliveryState::pending, "pending"},
+                                                   {DeliveryState::sending, "sending"},
+                                                   {DeliveryState::delivered, "delivered"},
+                                                   {DeliveryState::failed, "failed"},
+                                                   {DeliveryState::dropped, "dropped"}}};
 
-constexpr std::string_view kList = "deliveries";
-const std::string kSelect =
+constexpr std::string_view kDeliveryList = "deliveries";
+const std::string kSelectDeliveries =
     "SELECT id, channel, kind, event, alert, step, type, message_id, body, state, attempts, created_at, queued_at, "
     "next_attempt_at, last_attempt_at, ended_at, took_ms, response_code, error FROM deliveries ";
 
@@ -122,8 +122,8 @@ std::string where(const DeliveryFilter& filter) {
 
 }  // namespace
 
-std::string_view to_string(DeliveryState state) { return name_of(kStates, state); }
-DeliveryState parse_delivery_state(std::string_view name) { return value_of(kStates, name, "state"); }
+std::string_view to_string(DeliveryState state) { return name_of(kDeliveryStates, state); }
+DeliveryState parse_delivery_state(std::string_view name) { return value_of(kDeliveryStates, name, "state"); }
 
 void queue_deliveries(Transaction& transaction, const Event& event) {
   const std::vector<Interest> all = interests(transaction);
@@ -213,7 +213,7 @@ std::int64_t prune_deliveries(Transaction& transaction, Time before, std::int64_
 }
 
 std::optional<DeliveryRecord> find_delivery(const Snapshot& snapshot, DeliveryId id) {
-  Statement row(database_of(snapshot), kSelect + "WHERE id = ?");
+  Statement row(database_of(snapshot), kSelectDeliveries + "WHERE id = ?");
   if (!row.bind(id).next()) return std::nullopt;
   return read_delivery(row);
 }
@@ -228,15 +228,16 @@ std::optional<Time> next_attempt_of(const Snapshot& snapshot, ChannelId channel)
 }
 
 Page<DeliveryRecord> list_deliveries(const Snapshot& snapshot, const DeliveryFilter& filter, const PageRequest& page) {
-  const auto [before] = key_before<1>(page, kList, {std::numeric_limits<std::int64_t>::max()});
-  Statement rows(database_of(snapshot), kSelect + where(filter) + "id < ? ORDER BY id DESC LIMIT ?");
+  const auto [before] = key_before<1>(page, kDeliveryList, {std::numeric_limits<std::int64_t>::max()});
+  Statement rows(database_of(snapshot), kSelectDeliveries + where(filter) + "id < ? ORDER BY id DESC LIMIT ?");
   if (filter.alert) rows.bind(*filter.alert);
   if (filter.channel) rows.bind(*filter.channel);
   if (filter.state) rows.bind(to_string(*filter.state));
   rows.bind(before, rows_to_read(page));
   std::vector<DeliveryRecord> deliveries;
   while (rows.next()) deliveries.push_back(read_delivery(rows));
-  return make_page(std::move(deliveries), page, kList, [](const DeliveryRecord& d) { return std::array{d.id.value}; });
+  return make_page(std::move(deliveries), page, kDeliveryList,
+                   [](const DeliveryRecord& d) { return std::array{d.id.value}; });
 }
 
 std::map<ChannelKind, std::uint64_t> unfinished_deliveries(const Snapshot& snapshot) {

@@ -17,10 +17,10 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "epochs";
-constexpr Names<EpochState, 3> kStates{
+constexpr std::string_view kEpochList = "epochs";
+constexpr Names<EpochState, 3> kEpochStates{
     {{EpochState::usable, "usable"}, {EpochState::accepted, "accepted"}, {EpochState::refused, "refused"}}};
-const std::string kSelect =
+const std::string kSelectEpochs =
     "SELECT id, site, schedule, name, from_at, to_at, state, why, accepted_by, accepted_note, accepted_at, created_at "
     "FROM epochs ";
 
@@ -40,7 +40,7 @@ EpochRecord read_epoch(const Snapshot& snapshot, Statement& row) {
   epoch.name = row.take<std::string>();
   epoch.from = row.take<Time>();
   epoch.to = row.take<Time>();
-  epoch.state = value_of(kStates, row.take<std::string>(), "state");
+  epoch.state = value_of(kEpochStates, row.take<std::string>(), "state");
   epoch.why = row.take<std::string>();
   const auto by = row.take<std::optional<std::string>>();
   const auto note = row.take<std::optional<std::string>>();
@@ -114,7 +114,7 @@ bool is_window_unsettled(const Snapshot& snapshot, const EpochWindow& window) {
   });
 }
 
-std::string_view to_string(EpochState state) { return name_of(kStates, state); }
+std::string_view to_string(EpochState state) { return name_of(kEpochStates, state); }
 
 EpochRecord insert_epoch(Transaction& transaction, const EpochRecord& epoch, Time now) {
   transaction.impl().require_room_for_records();
@@ -131,23 +131,23 @@ EpochRecord insert_epoch(Transaction& transaction, const EpochRecord& epoch, Tim
 }
 
 std::optional<EpochRecord> find_epoch(const Snapshot& snapshot, EpochId id) {
-  Statement row(database_of(snapshot), kSelect + "WHERE id = ?");
+  Statement row(database_of(snapshot), kSelectEpochs + "WHERE id = ?");
   if (!row.bind(id).next()) return std::nullopt;
   return read_epoch(snapshot, row);
 }
 
 Page<EpochRecord> list_epochs(const Snapshot& snapshot, std::optional<SiteId> site, const PageRequest& page) {
   constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
-  const auto [before_to, before_id] = key_before<2>(page, kList, {kMax, kMax});
+  const auto [before_to, before_id] = key_before<2>(page, kEpochList, {kMax, kMax});
   Statement rows(database_of(snapshot),
-                 kSelect +
+                 kSelectEpochs +
                      (site ? "INDEXED BY epochs_by_site WHERE site = ? AND " : "INDEXED BY epochs_by_end WHERE ") +
                      "(to_at, id) < (?, ?) ORDER BY to_at DESC, id DESC LIMIT ?");
   if (site) rows.bind(*site);
   rows.bind(before_to, before_id, rows_to_read(page));
   std::vector<EpochRecord> epochs;
   while (rows.next()) epochs.push_back(read_epoch(snapshot, rows));
-  return make_page(std::move(epochs), page, kList, [](const EpochRecord& e) {
+  return make_page(std::move(epochs), page, kEpochList, [](const EpochRecord& e) {
     return std::array<std::int64_t, 2>{e.to.time_since_epoch().count(), e.id.value};
   });
 }
@@ -177,7 +177,7 @@ void delete_epoch(Transaction& transaction, EpochId id) {
 }
 
 std::optional<EpochRecord> latest_epoch(const Snapshot& snapshot, const EpochSearch& search) {
-  Statement row(database_of(snapshot), kSelect +
+  Statement row(database_of(snapshot), kSelectEpochs +
                                            (search.schedule ? "INDEXED BY epochs_by_schedule WHERE schedule = ?"
                                                             : "INDEXED BY epochs_by_site WHERE site = ?") +
                                            " AND to_at <= ? AND to_at > ? AND state " +

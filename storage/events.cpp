@@ -6,7 +6,7 @@
 namespace raywatch {
 namespace {
 
-const std::string kSelect =
+const std::string kSelectEvents =
     "SELECT id, at, type, site, scan, comparison, track, alert, zone, rule, sensor, text FROM events ";
 
 Event read_event(Statement& row) {
@@ -42,7 +42,7 @@ EventId insert_event(Transaction& transaction, const Event& event) {
 }
 
 std::optional<Event> find_event(const Snapshot& snapshot, EventId id) {
-  Statement row(database_of(snapshot), kSelect + "WHERE id = ?");
+  Statement row(database_of(snapshot), kSelectEvents + "WHERE id = ?");
   if (!row.bind(id).next()) return std::nullopt;
   return read_event(row);
 }
@@ -50,7 +50,7 @@ std::optional<Event> find_event(const Snapshot& snapshot, EventId id) {
 std::vector<Event> events_after(const Snapshot& snapshot, EventId after, std::optional<SiteId> site,
                                 std::size_t limit) {
   Statement rows(database_of(snapshot),
-                 kSelect + "WHERE id > ?1 AND (?2 IS NULL OR site IS NULL OR site = ?2) ORDER BY id LIMIT ?3");
+                 kSelectEvents + "WHERE id > ?1 AND (?2 IS NULL OR site IS NULL OR site = ?2) ORDER BY id LIMIT ?3");
   rows.bind(after, site, limit);
   std::vector<Event> events;
   while (rows.next()) events.push_back(read_event(rows));

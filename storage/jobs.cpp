@@ -10,9 +10,9 @@ namespace raywatch {
 namespace {
 
 /// A job that was started more often than this without an end is taken for what stops the program.
-constexpr int kMaxAttempts = 5;
+constexpr int kMostJobAttempts = 5;
 
-const std::string kSelect = "SELECT id, comparison, scan, site, attempts FROM jobs ";
+const std::string kSelectJobs = "SELECT id, comparison, scan, site, attempts FROM jobs ";
 
 Job read_job(Statement& row) {
   Job job;
@@ -138,12 +138,12 @@ std::uint64_t unfinished_jobs(const Snapshot& snapshot) {
 std::uint64_t requeue_started_jobs(Transaction& transaction) {
   std::vector<Job> started;
   {
-    Statement rows(database_of(transaction), kSelect + "INDEXED BY jobs_by_started WHERE started = 1 ORDER BY id");
+    Statement rows(database_of(transaction), kSelectJobs + "INDEXED BY jobs_by_started WHERE started = 1 ORDER BY id");
     while (rows.next()) started.push_back(read_job(rows));
   }
   std::uint64_t requeued = 0;
   for (const Job& job : started) {
-    if (job.attempts > kMaxAttempts) {
+    if (job.attempts > kMostJobAttempts) {
       const std::string why = "the program stopped " + std::to_string(job.attempts) + " times during this comparison";
       end_without_result(transaction, job, why, std::nullopt);
     } else {

@@ -44,14 +44,14 @@ void require_one_length(const PointCloud& points) {
 }
 
 /// Where a payload is put, and how far the search for a sound file of its month goes.
-struct Place {
+struct PayloadPlace {
   SiteId site;
   Time captured_at;
 };
 constexpr int kMaxParts = 100;
 
 /// Writes into the first part of the month that is not damaged. On the writer thread.
-PayloadRef put_into_sound_file(Payloads::Impl& impl, const Place& place, const EncodedPayload& payload) {
+PayloadRef put_into_sound_file(Payloads::Impl& impl, const PayloadPlace& place, const EncodedPayload& payload) {
   for (int part = 1;; ++part) {
     const std::string file = payload_file_name(place.site, place.captured_at, part);
     if (impl.damaged.contains(file)) continue;
@@ -67,7 +67,7 @@ PayloadRef put_into_sound_file(Payloads::Impl& impl, const Place& place, const E
   }
 }
 
-PayloadRef put(Payloads::Impl& impl, const Place& place, const EncodedPayload& payload) {
+PayloadRef put(Payloads::Impl& impl, const PayloadPlace& place, const EncodedPayload& payload) {
   PayloadRef ref;
   impl.writer.run([&] {
     require_room(impl.files.data_dir(), {.bytes = payload.bytes(), .reserve_bytes = impl.min_free_bytes});

@@ -11,8 +11,8 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "rules";
-const std::string kSelect = "SELECT id, site, zone, name, spec, created_at, edited_at FROM rules ";
+constexpr std::string_view kRuleList = "rules";
+const std::string kSelectRules = "SELECT id, site, zone, name, spec, created_at, edited_at FROM rules ";
 
 RuleRecord read_rule(Statement& row) {
   RuleRecord record;
@@ -57,24 +57,25 @@ RuleRecord insert_rule(Transaction& transaction, const RuleRecord& rule, Time no
 }
 
 std::optional<RuleRecord> find_rule(const Snapshot& snapshot, RuleId id) {
-  Statement row(database_of(snapshot), kSelect + "WHERE id = ?");
+  Statement row(database_of(snapshot), kSelectRules + "WHERE id = ?");
   if (!row.bind(id).next()) return std::nullopt;
   return read_rule(row);
 }
 
 Page<RuleRecord> list_rules(const Snapshot& snapshot, std::optional<SiteId> site, const PageRequest& page) {
-  const auto [after] = key_before<1>(page, kList, {0});
-  Statement rows(database_of(snapshot), kSelect + (site ? "INDEXED BY rules_by_site WHERE site = ? AND " : "WHERE ") +
-                                            "id > ? ORDER BY id LIMIT ?");
+  const auto [after] = key_before<1>(page, kRuleList, {0});
+  Statement rows(
+      database_of(snapshot),
+      kSelectRules + (site ? "INDEXED BY rules_by_site WHERE site = ? AND " : "WHERE ") + "id > ? ORDER BY id LIMIT ?");
   if (site) rows.bind(*site);
   rows.bind(after, rows_to_read(page));
   std::vector<RuleRecord> rules;
   while (rows.next()) rules.push_back(read_rule(rows));
-  return make_page(std::move(rules), page, kList, [](const RuleRecord& r) { return std::array{r.rule.id.value}; });
+  return make_page(std::move(rules), page, kRuleList, [](const RuleRecord& r) { return std::array{r.rule.id.value}; });
 }
 
 std::vector<RuleRecord> rules_of(const Snapshot& snapshot, SiteId site) {
-  Statement rows(database_of(snapshot), kSelect + "INDEXED BY rules_by_site WHERE site = ? ORDER BY id");
+  Statement rows(database_of(snapshot), kSelectRules + "INDEXED BY rules_by_site WHERE site = ? ORDER BY id");
   rows.bind(site);
   std::vector<RuleRecord> rules;
   while (rows.next()) rules.push_back(read_rule(rows));

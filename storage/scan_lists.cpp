@@ -12,25 +12,25 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "scans";
+constexpr std::string_view kScanList = "scans";
 
-using Key = std::array<std::int64_t, 2>;  ///< captured_at, id
-Key key_of(const ScanRecord& scan) { return {scan.captured_at.time_since_epoch().count(), scan.id.value}; }
+using ScanKey = std::array<std::int64_t, 2>;  ///< captured_at, id
+ScanKey key_of_scan(const ScanRecord& scan) { return {scan.captured_at.time_since_epoch().count(), scan.id.value}; }
 
 /// The part of a list, newest first: from <= captured_at, and before a key.
-struct Span {
+struct ScanSpan {
   std::int64_t from;
-  Key before;  ///< captured_at < before[0], or equal and id < before[1]
+  ScanKey before;  ///< captured_at < before[0], or equal and id < before[1]
   bool empty() const { return from > before[0]; }
 };
 
-Span span_of(const ScanFilter& filter, const PageRequest& page) {
+ScanSpan span_of(const ScanFilter& filter, const PageRequest& page) {
   constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
   constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
   const std::int64_t from = filter.from ? filter.from->time_since_epoch().count() : kMin;
   // Ids start at 1, so (to, 0) lies before every scan of that time.
-  const Key end = filter.to ? Key{filter.to->time_since_epoch().count(), 0} : Key{kMax, kMax};
-  return {from, std::min(end, key_before(page, kList, Key{kMax, kMax}))};
+  const ScanKey end = filter.to ? ScanKey{filter.to->time_since_epoch().count(), 0} : ScanKey{kMax, kMax};
+  return {from, std::min(end, key_before(page, kScanList, ScanKey{kMax, kMax}))};
 }
 
 /// Which index serves a filter, and the columns that it fixes.
@@ -57,7 +57,7 @@ std::string query(const std::string& select, const Access& access) {
          "captured_at BETWEEN ? AND ? AND (captured_at < ? OR id < ?) ORDER BY captured_at DESC, id DESC LIMIT ?";
 }
 
-void bind(Statement& rows, const Access& access, const Span& span, std::size_t count) {
+void bind(Statement& rows, const Access& access, const ScanSpan& span, std::size_t count) {
   for (const std::int64_t value : access.values) rows.bind(value);
   rows.bind(span.from, span.before[0], span.before[0], span.before[1], count);
 }
@@ -73,7 +73,7 @@ bool contradicts_site(const Snapshot& snapshot, const ScanFilter& filter) {
   return sensor_differs || vantage_differs;
 }
 
-std::vector<ScanRecord> scans_by_index(const Snapshot& snapshot, const ScanFilter& filter, const Span& span,
+std::vector<ScanRecord> scans_by_index(const Snapshot& snapshot, const ScanFilter& filter, const ScanSpan& span,
                                        std::size_t count) {
   const Access access = access_of(filter);
   Statement rows(database_of(snapshot), query(select_scans(), access));
@@ -84,9 +84,10 @@ std::vector<ScanRecord> scans_by_index(const Snapshot& snapshot, const ScanFilte
 }
 
 /// The keys of the newest scans of each vantage, merged. Right for few vantages with many scans.
-std::vector<Key> keys_by_vantage(const Snapshot& snapshot, ScanFilter filter,
-                                 const std::vector<VantageDistance>& vantages, const Span& span, std::size_t count) {
-  std::vector<Key> keys;
+std::vector<ScanKey> keys_by_vantage(const Snapshot& snapshot, ScanFilter filter,
+                                     const std::vector<VantageDistance>& vantages, const ScanSpan& span,
+                                     std::size_t count) {
+  std::vector<ScanKey> keys;
   for (const VantageDistance& vantage : vantages) {
     filter.vantage = vantage.id;
     const Access access = access_of(filter);
@@ -103,14 +104,15 @@ std::vector<Key> keys_by_vantage(const Snapshot& snapshot, ScanFilter filter,
 }
 
 /// The keys of the newest scans of the site, or sensor, whose vantage is one of many.
-std::vector<Key> keys_by_time(const Snapshot& snapshot, const ScanFilter& filter,
-                              const std::vector<VantageDistance>& vantages, const Span& span, std::size_t count) {
+std::vector<ScanKey> keys_by_time(const Snapshot& snapshot, const ScanFilter& filter,
+                                  const std::vector<VantageDistance>& vantages, const ScanSpan& span,
+                                  std::size_t count) {
   std::unordered_set<VantageId> wanted;
   for (const VantageDistance& vantage : vantages) wanted.insert(vantage.id);
   const Access access = access_of(filter);
   Statement rows(database_of(snapshot), query("SELECT captured_at, id, vantage FROM scans ", access));
   bind(rows, access, span, static_cast<std::size_t>(std::numeric_limits<std::int64_t>::max()));
-  std::vector<Key> keys;
+  std::vector<ScanKey> keys;
   while (keys.size() < count && rows.next()) {
     const auto captured_at = rows.take<std::int64_t>();
     const auto id = rows.take<std::int64_t>();
@@ -122,16 +124,16 @@ std::vector<Key> keys_by_time(const Snapshot& snapshot, const ScanFilter& filter
 /// From this number on it costs less to walk through time than to ask each vantage.
 constexpr std::size_t kManyVantages = 500;
 
-std::vector<ScanRecord> scans_near(const Snapshot& snapshot, const ScanFilter& filter, const Span& span,
+std::vector<ScanRecord> scans_near(const Snapshot& snapshot, const ScanFilter& filter, const ScanSpan& span,
                                    std::size_t count) {
   if (!filter.site) throw InvalidInput("a place needs a site", {{"near", "needs \"site\""}});
   std::vector<VantageDistance> vantages = vantages_within(snapshot, *filter.site, *filter.near_m, filter.near_radius_m);
   if (filter.vantage) std::erase_if(vantages, [&](const VantageDistance& v) { return v.id != *filter.vantage; });
-  const std::vector<Key> keys = vantages.size() < kManyVantages
-                                    ? keys_by_vantage(snapshot, filter, vantages, span, count)
-                                    : keys_by_time(snapshot, filter, vantages, span, count);
+  const std::vector<ScanKey> keys = vantages.size() < kManyVantages
+                                        ? keys_by_vantage(snapshot, filter, vantages, span, count)
+                                        : keys_by_time(snapshot, filter, vantages, span, count);
   std::vector<ScanRecord> scans;
-  for (const Key& key : keys) scans.push_back(find_scan(snapshot, ScanId{key[1]}).value());
+  for (const ScanKey& key : keys) scans.push_back(find_scan(snapshot, ScanId{key[1]}).value());
   return scans;
 }
 
@@ -139,11 +141,11 @@ std::vector<ScanRecord> scans_near(const Snapshot& snapshot, const ScanFilter& f
 
 Page<ScanRecord> list_scans(const Snapshot& snapshot, const ScanFilter& filter, const PageRequest& page) {
   const std::size_t count = rows_to_read(page);
-  const Span span = span_of(filter, page);
+  const ScanSpan span = span_of(filter, page);
   if (span.empty() || contradicts_site(snapshot, filter)) return {};
   return make_page(
       filter.near_m ? scans_near(snapshot, filter, span, count) : scans_by_index(snapshot, filter, span, count), page,
-      kList, key_of);
+      kScanList, key_of_scan);
 }
 
 std::optional<ScanRecord> latest_scan(const Snapshot& snapshot, VantageId vantage, Time not_before, Time before) {

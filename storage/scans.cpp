@@ -13,7 +13,7 @@
 namespace raywatch {
 namespace {
 
-ScanRecord existing(const Snapshot& snapshot, ScanId id) {
+ScanRecord existing_scan(const Snapshot& snapshot, ScanId id) {
   std::optional<ScanRecord> scan = find_scan(snapshot, id);
   if (!scan) throw NotFound("there is no scan " + std::to_string(id.value));
   return std::move(*scan);
@@ -179,7 +179,7 @@ ScanRecord insert_scan(Transaction& transaction, ScanRecord scan) {
   const VantageId vantage = vantage_for_scan(transaction, scan.site, local_pose(scan, site).position_m);
   const ScanId id = insert_row(transaction, scan, vantage);
   add_scan_to_vantage(transaction, vantage, scan.captured_at);
-  return existing(transaction, id);
+  return existing_scan(transaction, id);
 }
 
 std::optional<ScanRecord> find_scan(const Snapshot& snapshot, ScanId id) {
@@ -196,7 +196,7 @@ std::optional<ScanRecord> find_scan(const Snapshot& snapshot, SensorId sensor, T
 }
 
 ScanRecord edit_scan(Transaction& transaction, ScanId id, const ScanEdit& edit) {
-  ScanRecord scan = existing(transaction, id);
+  ScanRecord scan = existing_scan(transaction, id);
   scan.pinned = edit.pinned.value_or(scan.pinned);
   scan.note = edit.note.value_or(scan.note);
   database_of(transaction).run("UPDATE scans SET pinned = ?, note = ? WHERE id = ?", scan.pinned, scan.note, id);
@@ -229,7 +229,7 @@ std::uint64_t bytes_of_scan(const Snapshot& snapshot, ScanId id) {
 }
 
 std::vector<PayloadRef> delete_scan(Transaction& transaction, ScanId id) {
-  const ScanRecord scan = existing(transaction, id);
+  const ScanRecord scan = existing_scan(transaction, id);
   require_deletable(transaction, scan);
   return drop_scan(transaction, scan);
 }

@@ -11,9 +11,10 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "schedules";
+constexpr std::string_view kScheduleList = "schedules";
 constexpr Names<CatchUp, 3> kCatchUps{{{CatchUp::all, "all"}, {CatchUp::latest, "latest"}, {CatchUp::skip, "skip"}}};
-const std::string kSelect = "SELECT id, site, name, enabled, spec, looked_until, created_at, edited_at FROM schedules ";
+const std::string kSelectSchedules =
+    "SELECT id, site, name, enabled, spec, looked_until, created_at, edited_at FROM schedules ";
 
 ScheduleRecord read_schedule(Statement& row) {
   ScheduleRecord record;
@@ -58,25 +59,27 @@ ScheduleRecord insert_schedule(Transaction& transaction, const ScheduleRecord& s
 }
 
 std::optional<ScheduleRecord> find_schedule(const Snapshot& snapshot, ScheduleId id) {
-  Statement row(database_of(snapshot), kSelect + "WHERE id = ?");
+  Statement row(database_of(snapshot), kSelectSchedules + "WHERE id = ?");
   if (!row.bind(id).next()) return std::nullopt;
   return read_schedule(row);
 }
 
 Page<ScheduleRecord> list_schedules(const Snapshot& snapshot, std::optional<SiteId> site, const PageRequest& page) {
-  const auto [after] = key_before<1>(page, kList, {0});
-  Statement rows(
-      database_of(snapshot),
-      kSelect + (site ? "INDEXED BY schedules_by_site WHERE site = ? AND " : "WHERE ") + "id > ? ORDER BY id LIMIT ?");
+  const auto [after] = key_before<1>(page, kScheduleList, {0});
+  Statement rows(database_of(snapshot), kSelectSchedules +
+                                            (site ? "INDEXED BY schedules_by_site WHERE site = ? AND " : "WHERE ") +
+                                            "id > ? ORDER BY id LIMIT ?");
   if (site) rows.bind(*site);
   rows.bind(after, rows_to_read(page));
   std::vector<ScheduleRecord> schedules;
   while (rows.next()) schedules.push_back(read_schedule(rows));
-  return make_page(std::move(schedules), page, kList, [](const ScheduleRecord& s) { return std::array{s.id.value}; });
+  return make_page(std::move(schedules), page, kScheduleList,
+                   [](const ScheduleRecord& s) { return std::array{s.id.value}; });
 }
 
 std::vector<ScheduleRecord> enabled_schedules(const Snapshot& snapshot) {
-  Statement rows(database_of(snapshot), kSelect + "INDEXED BY schedules_enabled WHERE enabled = 1 ORDER BY id");
+  Statement rows(database_of(snapshot),
+                 kSelectSchedules + "INDEXED BY schedules_enabled WHERE enabled = 1 ORDER BY id");
   std::vector<ScheduleRecord> schedules;
   while (rows.next()) schedules.push_back(read_schedule(rows));
   return schedules;

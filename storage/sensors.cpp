@@ -10,8 +10,9 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "sensors";
-const std::string kSelect = "SELECT id, name, site, pose, known, estimated, interval_s, created_at FROM sensors ";
+constexpr std::string_view kSensorList = "sensors";
+const std::string kSelectSensors =
+    "SELECT id, name, site, pose, known, estimated, interval_s, created_at FROM sensors ";
 
 std::optional<Pose> take_pose(Statement& row) {
   const auto bytes = row.take<std::optional<std::span<const std::uint8_t>>>();
@@ -36,14 +37,14 @@ Sensor read_sensor(Statement& row) {
   return sensor;
 }
 
-template <class Key>
-std::optional<Sensor> find_by(const Snapshot& snapshot, std::string_view column, const Key& key) {
-  Statement row(database_of(snapshot), kSelect + "WHERE " + std::string(column) + " = ?");
+template <class Value>
+std::optional<Sensor> find_sensor_by(const Snapshot& snapshot, std::string_view column, const Value& key) {
+  Statement row(database_of(snapshot), kSelectSensors + "WHERE " + std::string(column) + " = ?");
   if (!row.bind(key).next()) return std::nullopt;
   return read_sensor(row);
 }
 
-Sensor existing(const Snapshot& snapshot, SensorId id) {
+Sensor existing_sensor(const Snapshot& snapshot, SensorId id) {
   std::optional<Sensor> sensor = find_sensor(snapshot, id);
   if (!sensor) throw NotFound("there is no sensor " + std::to_string(id.value));
   return std::move(*sensor);
@@ -62,28 +63,30 @@ Sensor insert_sensor(Transaction& transaction, const Sensor& sensor, Time now) {
           "VALUES (?, ?, ?, ?, ?, ?, ?)",
           sensor.name, sensor.site, pose, model_json(sensor.known), model_json(sensor.estimated), sensor.interval_s,
           now);
-  return existing(transaction, SensorId{database_of(transaction).last_id()});
+  return existing_sensor(transaction, SensorId{database_of(transaction).last_id()});
 }
 
 std::optional<Sensor> find_sensor(const Snapshot& snapshot, std::string_view name) {
-  return find_by(snapshot, "name", name);
+  return find_sensor_by(snapshot, "name", name);
 }
 
-std::optional<Sensor> find_sensor(const Snapshot& snapshot, SensorId id) { return find_by(snapshot, "id", id); }
+std::optional<Sensor> find_sensor(const Snapshot& snapshot, SensorId id) { return find_sensor_by(snapshot, "id", id); }
 
 Page<Sensor> list_sensors(const Snapshot& snapshot, std::optional<SiteId> site, const PageRequest& page) {
-  const auto [after] = key_before<1>(page, kList, {0});
-  Statement rows(database_of(snapshot), kSelect + (site ? "INDEXED BY sensors_by_site WHERE site = ? AND " : "WHERE ") +
+  const auto [after] = key_before<1>(page, kSensorList, {0});
+  Statement rows(database_of(snapshot), kSelectSensors +
+                                            (site ? "INDEXED BY sensors_by_site WHERE site = ? AND " : "WHERE ") +
                                             "id > ? ORDER BY id LIMIT ?");
   if (site) rows.bind(*site);
   rows.bind(after, rows_to_read(page));
   std::vector<Sensor> sensors;
   while (rows.next()) sensors.push_back(read_sensor(rows));
-  return make_page(std::move(sensors), page, kList, [](const Sensor& sensor) { return std::array{sensor.id.value}; });
+  return make_page(std::move(sensors), page, kSensorList,
+                   [](const Sensor& sensor) { return std::array{sensor.id.value}; });
 }
 
 Sensor edit_sensor(Transaction& transaction, SensorId id, const SensorEdit& edit) {
-  Sensor sensor = existing(transaction, id);
+  Sensor sensor = existing_sensor(transaction, id);
   if (edit.pose) sensor.pose = *edit.pose;
   if (edit.known) sensor.known = *edit.known;
   if (edit.interval_s) sensor.interval_s = *edit.interval_s;
@@ -99,7 +102,7 @@ void set_estimated_model(Transaction& transaction, SensorId id, const SensorMode
 }
 
 void delete_sensor(Transaction& transaction, SensorId id) {
-  const Sensor sensor = existing(transaction, id);
+  const Sensor sensor = existing_sensor(transaction, id);
   if (database_of(transaction).find<int>("SELECT 1 FROM scans WHERE sensor = ? LIMIT 1", id)) {
     throw Conflict("sensor \"" + sensor.name + "\" still has scans");
   }

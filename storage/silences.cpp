@@ -9,8 +9,9 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "silences";
-const std::string kSelect = "SELECT id, site, zone, sensor, from_at, until_at, actor, note, created_at FROM silences ";
+constexpr std::string_view kSilenceList = "silences";
+const std::string kSelectSilences =
+    "SELECT id, site, zone, sensor, from_at, until_at, actor, note, created_at FROM silences ";
 
 SilenceRecord read_silence(Statement& row) {
   SilenceRecord record;
@@ -41,25 +42,25 @@ SilenceRecord insert_silence(Transaction& transaction, const SilenceRecord& reco
 }
 
 std::optional<SilenceRecord> find_silence(const Snapshot& snapshot, SilenceId id) {
-  Statement row(database_of(snapshot), kSelect + "WHERE id = ?");
+  Statement row(database_of(snapshot), kSelectSilences + "WHERE id = ?");
   if (!row.bind(id).next()) return std::nullopt;
   return read_silence(row);
 }
 
 Page<SilenceRecord> list_silences(const Snapshot& snapshot, std::optional<SiteId> site, const PageRequest& page) {
-  const auto [before] = key_before<1>(page, kList, {std::numeric_limits<std::int64_t>::max()});
+  const auto [before] = key_before<1>(page, kSilenceList, {std::numeric_limits<std::int64_t>::max()});
   // Silences are made by people: there are few, and walking through those of other sites costs little.
   Statement rows(database_of(snapshot),
-                 kSelect + "WHERE id < ?1 AND (?2 IS NULL OR site = ?2) ORDER BY id DESC LIMIT ?3");
+                 kSelectSilences + "WHERE id < ?1 AND (?2 IS NULL OR site = ?2) ORDER BY id DESC LIMIT ?3");
   rows.bind(before, site, rows_to_read(page));
   std::vector<SilenceRecord> list;
   while (rows.next()) list.push_back(read_silence(rows));
-  return make_page(std::move(list), page, kList, [](const SilenceRecord& s) { return std::array{s.id.value}; });
+  return make_page(std::move(list), page, kSilenceList, [](const SilenceRecord& s) { return std::array{s.id.value}; });
 }
 
 std::vector<Silence> silences_after(const Snapshot& snapshot, SiteId site, Time moment) {
   Statement rows(database_of(snapshot),
-                 kSelect + "INDEXED BY silences_by_site WHERE site = ? AND until_at > ? ORDER BY until_at, id");
+                 kSelectSilences + "INDEXED BY silences_by_site WHERE site = ? AND until_at > ? ORDER BY until_at, id");
   rows.bind(site, moment);
   std::vector<Silence> list;
   while (rows.next()) list.push_back(read_silence(rows).silence);

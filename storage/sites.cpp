@@ -11,8 +11,8 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "sites";
-const std::string kSelect =
+constexpr std::string_view kSiteList = "sites";
+const std::string kSelectSites =
     "SELECT id, name, time_zone, profile, epsg, mine_grid, origin_x_m, origin_y_m, origin_z_m, "
     "retention_max_age_days, retention_max_bytes, retention_min_free_bytes, created_at FROM sites ";
 
@@ -75,14 +75,14 @@ Site read_site(Statement& row) {
   return site;
 }
 
-template <class Key>
-std::optional<Site> find_by(const Snapshot& snapshot, std::string_view column, const Key& key) {
-  Statement row(database_of(snapshot), kSelect + "WHERE " + std::string(column) + " = ?");
+template <class Value>
+std::optional<Site> find_site_by(const Snapshot& snapshot, std::string_view column, const Value& key) {
+  Statement row(database_of(snapshot), kSelectSites + "WHERE " + std::string(column) + " = ?");
   if (!row.bind(key).next()) return std::nullopt;
   return read_site(row);
 }
 
-Site existing(const Snapshot& snapshot, SiteId id) {
+Site existing_site(const Snapshot& snapshot, SiteId id) {
   std::optional<Site> site = find_site(snapshot, id);
   if (!site) throw NotFound("there is no site " + std::to_string(id.value));
   return std::move(*site);
@@ -127,26 +127,26 @@ Site insert_site(Transaction& transaction, const Site& site, Time now) {
           site.name, site.time_zone, to_string(site.profile), site.epsg, text_of(site.mine_grid),
           coordinate(site.origin_m, 0), coordinate(site.origin_m, 1), coordinate(site.origin_m, 2),
           site.retention.max_age_days, site.retention.max_bytes, site.retention.min_free_bytes, now);
-  return existing(transaction, SiteId{database_of(transaction).last_id()});
+  return existing_site(transaction, SiteId{database_of(transaction).last_id()});
 }
 
 std::optional<Site> find_site(const Snapshot& snapshot, std::string_view name) {
-  return find_by(snapshot, "name", name);
+  return find_site_by(snapshot, "name", name);
 }
 
-std::optional<Site> find_site(const Snapshot& snapshot, SiteId id) { return find_by(snapshot, "id", id); }
+std::optional<Site> find_site(const Snapshot& snapshot, SiteId id) { return find_site_by(snapshot, "id", id); }
 
 Page<Site> list_sites(const Snapshot& snapshot, const PageRequest& page) {
-  const auto [after] = key_before<1>(page, kList, {0});
-  Statement rows(database_of(snapshot), kSelect + "WHERE id > ? ORDER BY id LIMIT ?");
+  const auto [after] = key_before<1>(page, kSiteList, {0});
+  Statement rows(database_of(snapshot), kSelectSites + "WHERE id > ? ORDER BY id LIMIT ?");
   rows.bind(after, rows_to_read(page));
   std::vector<Site> sites;
   while (rows.next()) sites.push_back(read_site(rows));
-  return make_page(std::move(sites), page, kList, [](const Site& site) { return std::array{site.id.value}; });
+  return make_page(std::move(sites), page, kSiteList, [](const Site& site) { return std::array{site.id.value}; });
 }
 
 Site edit_site(Transaction& transaction, SiteId id, const SiteEdit& edit) {
-  Site site = existing(transaction, id);
+  Site site = existing_site(transaction, id);
   if (edit.origin_m && edit.origin_m != site.origin_m && has_places(transaction, id)) {
     throw Conflict("the origin of site \"" + site.name + "\" is fixed: what is stored is relative to it");
   }
@@ -184,7 +184,7 @@ Site fix_origin(Transaction& transaction, const Site& site, const Eigen::Vector3
 }
 
 void delete_site(Transaction& transaction, SiteId id) {
-  const Site site = existing(transaction, id);
+  const Site site = existing_site(transaction, id);
   if (database_of(transaction).find<int>("SELECT 1 FROM sensors WHERE site = ? LIMIT 1", id)) {
     throw Conflict("site \"" + site.name + "\" still has sensors");
   }

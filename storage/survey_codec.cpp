@@ -8,7 +8,7 @@
 namespace raywatch {
 namespace {
 
-class Writer {
+class SurveyWriter {
  public:
   template <class T>
   void value(const T& value) {
@@ -25,9 +25,9 @@ class Writer {
   std::vector<std::uint8_t> bytes_;
 };
 
-class Reader {
+class SurveyReader {
  public:
-  explicit Reader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
+  explicit SurveyReader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
   template <class T>
   T value() {
     require(sizeof(T));
@@ -52,7 +52,7 @@ class Reader {
 
 constexpr std::size_t kBytesOfCell = 2 * 28 + 12;
 
-void write_model(Writer& out, const ElevationModel& model) {
+void write_model(SurveyWriter& out, const ElevationModel& model) {
   using Cell = ElevationCell;
   out.plane<float>(model.cells, [](const Cell& c) { return c.height_m; });
   out.plane<float>(model.cells, [](const Cell& c) { return c.sigma_m; });
@@ -63,7 +63,7 @@ void write_model(Writer& out, const ElevationModel& model) {
   out.plane<std::uint32_t>(model.cells, [](const Cell& c) { return c.count; });
 }
 
-ElevationModel read_model(Reader& in, const GridLayout& layout) {
+ElevationModel read_model(SurveyReader& in, const GridLayout& layout) {
   using Cell = ElevationCell;
   ElevationModel model{.layout = layout, .cells = std::vector<Cell>(layout.cell_count()), .stations = {}};
   in.plane<float>(model.cells, [](Cell& c, float v) { c.height_m = v; });
@@ -76,7 +76,7 @@ ElevationModel read_model(Reader& in, const GridLayout& layout) {
   return model;
 }
 
-void write_points(Writer& out, const std::vector<EpochPoints>& scans) {
+void write_points(SurveyWriter& out, const std::vector<EpochPoints>& scans) {
   out.value(static_cast<std::uint32_t>(scans.size()));
   for (const EpochPoints& scan : scans) {
     out.value(static_cast<std::uint64_t>(scan.classes.size()));
@@ -85,7 +85,7 @@ void write_points(Writer& out, const std::vector<EpochPoints>& scans) {
   }
 }
 
-std::vector<EpochPoints> read_points(Reader& in) {
+std::vector<EpochPoints> read_points(SurveyReader& in) {
   std::vector<EpochPoints> scans;
   for (auto left = in.value<std::uint32_t>(); left > 0; --left) {
     const auto points = in.value<std::uint64_t>();
@@ -105,7 +105,7 @@ std::vector<EpochPoints> read_points(Reader& in) {
 }  // namespace
 
 std::vector<std::vector<std::uint8_t>> encode_models(const SurveyResult& survey) {
-  Writer out;
+  SurveyWriter out;
   const GridLayout& layout = survey.before_model.layout;
   out.value(layout.origin_m.x());
   out.value(layout.origin_m.y());
@@ -137,7 +137,7 @@ void ModelDecoder::add(std::span<const std::uint8_t> block) {
 }
 
 void ModelDecoder::finish(SurveyResult& survey) {
-  Reader in(content_);
+  SurveyReader in(content_);
   GridLayout layout;
   layout.origin_m.x() = in.value<double>();
   layout.origin_m.y() = in.value<double>();

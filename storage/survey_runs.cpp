@@ -12,18 +12,18 @@ namespace raywatch {
 namespace {
 
 /// A run that was begun more often than this without an end is taken for what stops the program.
-constexpr int kMaxAttempts = 5;
+constexpr int kMostRunAttempts = 5;
 
-constexpr std::string_view kList = "survey_runs";
-constexpr Names<RunState, 8> kStates{{{RunState::queued, "queued"},
-                                      {RunState::running, "running"},
-                                      {RunState::done, "done"},
-                                      {RunState::failed, "failed"},
-                                      {RunState::no_scans, "no_scans"},
-                                      {RunState::refused, "refused"},
-                                      {RunState::skipped, "skipped"},
-                                      {RunState::cancelled, "cancelled"}}};
-const std::string kSelect =
+constexpr std::string_view kRunList = "survey_runs";
+constexpr Names<RunState, 8> kRunStates{{{RunState::queued, "queued"},
+                                         {RunState::running, "running"},
+                                         {RunState::done, "done"},
+                                         {RunState::failed, "failed"},
+                                         {RunState::no_scans, "no_scans"},
+                                         {RunState::refused, "refused"},
+                                         {RunState::skipped, "skipped"},
+                                         {RunState::cancelled, "cancelled"}}};
+const std::string kSelectRuns =
     "SELECT id, site, schedule, due_at, from_at, to_at, definition, state, attempts, why, log, epoch, reference, "
     "survey, created_at, started_at, finished_at FROM survey_runs ";
 
@@ -57,8 +57,8 @@ std::vector<RunRecord> read_all(Statement& rows) {
 
 }  // namespace
 
-std::string_view to_string(RunState state) { return name_of(kStates, state); }
-RunState parse_run_state(std::string_view name) { return value_of(kStates, name, "state"); }
+std::string_view to_string(RunState state) { return name_of(kRunStates, state); }
+RunState parse_run_state(std::string_view name) { return value_of(kRunStates, name, "state"); }
 
 RunRecord insert_run(Transaction& transaction, const RunRecord& run, Time now) {
   transaction.impl().require_room_for_records();
@@ -73,29 +73,29 @@ RunRecord insert_run(Transaction& transaction, const RunRecord& run, Time now) {
 }
 
 std::optional<RunRecord> find_run(const Snapshot& snapshot, RunId id) {
-  Statement row(database_of(snapshot), kSelect + "WHERE id = ?");
+  Statement row(database_of(snapshot), kSelectRuns + "WHERE id = ?");
   if (!row.bind(id).next()) return std::nullopt;
   return read_run(row);
 }
 
 Page<RunRecord> list_runs(const Snapshot& snapshot, const RunFilter& filter, const PageRequest& page) {
-  const auto [before] = key_before<1>(page, kList, {std::numeric_limits<std::int64_t>::max()});
+  const auto [before] = key_before<1>(page, kRunList, {std::numeric_limits<std::int64_t>::max()});
   const std::string which = filter.schedule ? "INDEXED BY survey_runs_by_schedule WHERE schedule = ? AND "
                             : filter.site   ? "INDEXED BY survey_runs_by_site WHERE site = ? AND "
                                             : "WHERE ";
-  Statement rows(database_of(snapshot), kSelect + which + "id < ? ORDER BY id DESC LIMIT ?");
+  Statement rows(database_of(snapshot), kSelectRuns + which + "id < ? ORDER BY id DESC LIMIT ?");
   if (filter.schedule) {
     rows.bind(*filter.schedule);
   } else if (filter.site) {
     rows.bind(*filter.site);
   }
   rows.bind(before, rows_to_read(page));
-  return make_page(read_all(rows), page, kList, [](const RunRecord& run) { return std::array{run.id.value}; });
+  return make_page(read_all(rows), page, kRunList, [](const RunRecord& run) { return std::array{run.id.value}; });
 }
 
 std::vector<RunRecord> queued_runs(const Snapshot& snapshot) {
   Statement rows(database_of(snapshot),
-                 kSelect + "INDEXED BY survey_runs_waiting WHERE state = 'queued' ORDER BY due_at, id");
+                 kSelectRuns + "INDEXED BY survey_runs_waiting WHERE state = 'queued' ORDER BY due_at, id");
   return read_all(rows);
 }
 
@@ -103,7 +103,7 @@ std::vector<RunRecord> unfinished_runs(const Snapshot& snapshot, SiteId site) {
   std::vector<RunRecord> runs;
   for (const char* which :
        {"survey_runs_waiting WHERE state = 'queued'", "survey_runs_running WHERE state = 'running'"}) {
-    Statement rows(database_of(snapshot), kSelect + "INDEXED BY " + which + " AND site = ?");
+    Statement rows(database_of(snapshot), kSelectRuns + "INDEXED BY " + which + " AND site = ?");
     rows.bind(site);
     for (RunRecord& run : read_all(rows)) runs.push_back(std::move(run));
   }
@@ -135,7 +135,7 @@ std::uint64_t requeue_running_runs(Transaction& transaction, Time now) {
       "UPDATE survey_runs INDEXED BY survey_runs_running SET state = 'failed', finished_at = ?, "
       "why = 'the program stopped ' || attempts || ' times during this survey' "
       "WHERE state = 'running' AND attempts > ?",
-      now, kMaxAttempts);
+      now, kMostRunAttempts);
   database.run("UPDATE survey_runs INDEXED BY survey_runs_running SET state = 'queued' WHERE state = 'running'");
   return static_cast<std::uint64_t>(database.changed_rows());
 }

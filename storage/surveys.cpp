@@ -11,8 +11,8 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "surveys", kChangeList = "survey_changes";
-const std::string kColumns =
+constexpr std::string_view kSurveyList = "surveys", kSurveyChangeList = "survey_changes";
+const std::string kSurveyColumns =
     "SELECT id, site, schedule, run, before_epoch, after_epoch, before_at, after_at, made_at, payload_file, "
     "payload_key, stored_bytes";
 
@@ -73,7 +73,7 @@ SurveyRecord insert_survey(Transaction& transaction, SurveyRecord survey, const 
 }
 
 std::optional<SurveyRecord> find_survey(const Snapshot& snapshot, SurveyId id) {
-  Statement row(database_of(snapshot), kColumns + " FROM surveys WHERE id = ?");
+  Statement row(database_of(snapshot), kSurveyColumns + " FROM surveys WHERE id = ?");
   if (!row.bind(id).next()) return std::nullopt;
   return read_survey(row);
 }
@@ -87,25 +87,25 @@ std::vector<SurveyChange> survey_changes(const Snapshot& snapshot, SurveyId id) 
 }
 
 Page<SurveyChange> survey_changes(const Snapshot& snapshot, SurveyId id, const PageRequest& page) {
-  const auto [done] = key_before<1>(page, kChangeList, {0});
+  const auto [done] = key_before<1>(page, kSurveyChangeList, {0});
   std::vector<SurveyChange> all = survey_changes(snapshot, id);
   const auto first = std::min(static_cast<std::size_t>(std::max<std::int64_t>(done, 0)), all.size());
   const std::size_t last = std::min(first + checked_limit(page), all.size());
   Page<SurveyChange> result{
       {all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last)},
       std::nullopt};
-  if (last < all.size()) result.next = encode_cursor(kChangeList, std::array{static_cast<std::int64_t>(last)});
+  if (last < all.size()) result.next = encode_cursor(kSurveyChangeList, std::array{static_cast<std::int64_t>(last)});
   return result;
 }
 
 Page<ListedSurvey> list_surveys(const Snapshot& snapshot, const SurveyFilter& filter, const PageRequest& page) {
-  const auto [before] = key_before<1>(page, kList, {std::numeric_limits<std::int64_t>::max()});
+  const auto [before] = key_before<1>(page, kSurveyList, {std::numeric_limits<std::int64_t>::max()});
   const std::string which = filter.schedule ? "INDEXED BY surveys_by_schedule WHERE schedule = ? AND "
                             : filter.site   ? "INDEXED BY surveys_by_site WHERE site = ? AND "
                                             : "WHERE ";
   const std::string site_name = ", (SELECT name FROM sites WHERE sites.id = surveys.site)";
   Statement rows(database_of(snapshot),
-                 kColumns + site_name + ", result FROM surveys " + which + "id < ? ORDER BY id DESC LIMIT ?");
+                 kSurveyColumns + site_name + ", result FROM surveys " + which + "id < ? ORDER BY id DESC LIMIT ?");
   if (filter.schedule) {
     rows.bind(*filter.schedule);
   } else if (filter.site) {
@@ -119,7 +119,7 @@ Page<ListedSurvey> list_surveys(const Snapshot& snapshot, const SurveyFilter& fi
     survey.site = rows.take<std::string>();
     survey.result = result_from_json(rows.take<std::string>());
   }
-  return make_page(std::move(surveys), page, kList,
+  return make_page(std::move(surveys), page, kSurveyList,
                    [](const ListedSurvey& survey) { return std::array{survey.record.id.value}; });
 }
 

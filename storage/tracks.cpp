@@ -13,8 +13,8 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "tracks";
-const std::string kSelect =
+constexpr std::string_view kTrackList = "tracks";
+const std::string kSelectTracks =
     "SELECT id, site, state, first_scan, last_scan, ended_scan, latest_change, moved_from, moved_to, first_seen_at, "
     "last_seen_at, last_told_at, ended_at, seen, absent, recent, remembered, anchor_min_x_m, anchor_min_y_m, "
     "anchor_min_z_m, anchor_max_x_m, anchor_max_y_m, anchor_max_z_m, sample, kind, centroid_x_m, centroid_y_m, "
@@ -135,21 +135,21 @@ void link_moved(Transaction& transaction, TrackId from, TrackId to) {
 }
 
 std::optional<TrackRecord> find_track(const Snapshot& snapshot, TrackId id) {
-  Statement row(database_of(snapshot), kSelect + "WHERE id = ?");
+  Statement row(database_of(snapshot), kSelectTracks + "WHERE id = ?");
   if (!row.bind(id).next()) return std::nullopt;
   return read_track(row);
 }
 
 std::vector<TrackRecord> followed_tracks(const Snapshot& snapshot, SiteId site) {
   Statement rows(database_of(snapshot),
-                 kSelect + "INDEXED BY tracks_followed WHERE site = ? AND followed = 1 ORDER BY id");
+                 kSelectTracks + "INDEXED BY tracks_followed WHERE site = ? AND followed = 1 ORDER BY id");
   rows.bind(site);
   return all_of(rows);
 }
 
 std::vector<TrackRecord> tracks_begun(const Snapshot& snapshot, SiteId site, Time from, Time to) {
   Statement rows(database_of(snapshot),
-                 kSelect +
+                 kSelectTracks +
                      "INDEXED BY tracks_by_first_seen WHERE site = ? AND first_seen_at BETWEEN ? AND ? "
                      "ORDER BY first_seen_at, id");
   rows.bind(site, from, to);
@@ -157,15 +157,15 @@ std::vector<TrackRecord> tracks_begun(const Snapshot& snapshot, SiteId site, Tim
 }
 
 Page<TrackRecord> list_tracks(const Snapshot& snapshot, const TrackFilter& filter, const PageRequest& page) {
-  const auto [before] = key_before<1>(page, kList, {std::numeric_limits<std::int64_t>::max()});
-  Statement rows(database_of(snapshot), kSelect + where(filter) + "id < ? ORDER BY id DESC LIMIT ?");
+  const auto [before] = key_before<1>(page, kTrackList, {std::numeric_limits<std::int64_t>::max()});
+  Statement rows(database_of(snapshot), kSelectTracks + where(filter) + "id < ? ORDER BY id DESC LIMIT ?");
   if (filter.site) rows.bind(*filter.site);
   if (filter.state) rows.bind(to_string(*filter.state));
   if (filter.kind) rows.bind(to_string(*filter.kind));
   if (filter.from) rows.bind(*filter.from);
   if (filter.to) rows.bind(*filter.to);
   rows.bind(before, rows_to_read(page));
-  return make_page(all_of(rows), page, kList, [](const TrackRecord& t) { return std::array{t.track.id.value}; });
+  return make_page(all_of(rows), page, kTrackList, [](const TrackRecord& t) { return std::array{t.track.id.value}; });
 }
 
 }  // namespace raywatch

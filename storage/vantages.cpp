@@ -11,8 +11,9 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "vantages";
-const std::string kSelect = "SELECT id, site, x_m, y_m, z_m, scans, first_captured_at, last_captured_at FROM vantages ";
+constexpr std::string_view kVantageList = "vantages";
+const std::string kSelectVantages =
+    "SELECT id, site, x_m, y_m, z_m, scans, first_captured_at, last_captured_at FROM vantages ";
 
 Vantage read_vantage(Statement& row) {
   Vantage vantage;
@@ -118,15 +119,15 @@ void drop_scan_from_vantage(Transaction& transaction, VantageId vantage) {
 }
 
 Page<Vantage> list_vantages(const Snapshot& snapshot, std::optional<SiteId> site, const PageRequest& page) {
-  const auto [after] = key_before<1>(page, kList, {0});
-  Statement rows(
-      database_of(snapshot),
-      kSelect + (site ? "INDEXED BY vantages_by_site WHERE site = ? AND " : "WHERE ") + "id > ? ORDER BY id LIMIT ?");
+  const auto [after] = key_before<1>(page, kVantageList, {0});
+  Statement rows(database_of(snapshot), kSelectVantages +
+                                            (site ? "INDEXED BY vantages_by_site WHERE site = ? AND " : "WHERE ") +
+                                            "id > ? ORDER BY id LIMIT ?");
   if (site) rows.bind(*site);
   rows.bind(after, rows_to_read(page));
   std::vector<Vantage> vantages;
   while (rows.next()) vantages.push_back(read_vantage(rows));
-  return make_page(std::move(vantages), page, kList, [](const Vantage& v) { return std::array{v.id.value}; });
+  return make_page(std::move(vantages), page, kVantageList, [](const Vantage& v) { return std::array{v.id.value}; });
 }
 
 std::vector<Vantage> nearest_vantages(const Snapshot& snapshot, SiteId site, const Eigen::Vector3d& position_m,
@@ -139,7 +140,7 @@ std::vector<Vantage> nearest_vantages(const Snapshot& snapshot, SiteId site, con
   found.erase(end, found.end());
   std::vector<Vantage> vantages;
   for (const VantageDistance& near : found) {
-    Statement one(database_of(snapshot), kSelect + "WHERE id = ?");
+    Statement one(database_of(snapshot), kSelectVantages + "WHERE id = ?");
     one.bind(near.id).next();
     vantages.push_back(read_vantage(one));
   }

@@ -11,8 +11,9 @@
 namespace raywatch {
 namespace {
 
-constexpr std::string_view kList = "zones", kCoverageList = "coverage";
-const std::string kSelect = "SELECT id, site, name, kind, polygon, z_min_m, z_max_m, created_at, edited_at FROM zones ";
+constexpr std::string_view kZoneList = "zones", kCoverageList = "coverage";
+const std::string kSelectZones =
+    "SELECT id, site, name, kind, polygon, z_min_m, z_max_m, created_at, edited_at FROM zones ";
 
 ZoneRecord read_zone(Statement& row) {
   ZoneRecord record;
@@ -52,30 +53,31 @@ ZoneRecord insert_zone(Transaction& transaction, const ZoneRecord& zone, Time no
 }
 
 std::optional<ZoneRecord> find_zone(const Snapshot& snapshot, ZoneId id) {
-  Statement row(database_of(snapshot), kSelect + "WHERE id = ?");
+  Statement row(database_of(snapshot), kSelectZones + "WHERE id = ?");
   if (!row.bind(id).next()) return std::nullopt;
   return read_zone(row);
 }
 
 std::optional<ZoneRecord> find_zone(const Snapshot& snapshot, SiteId site, std::string_view name) {
-  Statement row(database_of(snapshot), kSelect + "INDEXED BY zones_by_name WHERE site = ? AND name = ?");
+  Statement row(database_of(snapshot), kSelectZones + "INDEXED BY zones_by_name WHERE site = ? AND name = ?");
   if (!row.bind(site, name).next()) return std::nullopt;
   return read_zone(row);
 }
 
 Page<ZoneRecord> list_zones(const Snapshot& snapshot, std::optional<SiteId> site, const PageRequest& page) {
-  const auto [after] = key_before<1>(page, kList, {0});
-  Statement rows(database_of(snapshot), kSelect + (site ? "INDEXED BY zones_by_site WHERE site = ? AND " : "WHERE ") +
-                                            "id > ? ORDER BY id LIMIT ?");
+  const auto [after] = key_before<1>(page, kZoneList, {0});
+  Statement rows(
+      database_of(snapshot),
+      kSelectZones + (site ? "INDEXED BY zones_by_site WHERE site = ? AND " : "WHERE ") + "id > ? ORDER BY id LIMIT ?");
   if (site) rows.bind(*site);
   rows.bind(after, rows_to_read(page));
   std::vector<ZoneRecord> zones;
   while (rows.next()) zones.push_back(read_zone(rows));
-  return make_page(std::move(zones), page, kList, [](const ZoneRecord& z) { return std::array{z.zone.id.value}; });
+  return make_page(std::move(zones), page, kZoneList, [](const ZoneRecord& z) { return std::array{z.zone.id.value}; });
 }
 
 std::vector<Zone> zones_of(const Snapshot& snapshot, SiteId site) {
-  Statement rows(database_of(snapshot), kSelect + "INDEXED BY zones_by_site WHERE site = ? ORDER BY id");
+  Statement rows(database_of(snapshot), kSelectZones + "INDEXED BY zones_by_site WHERE site = ? ORDER BY id");
   rows.bind(site);
   std::vector<Zone> zones;
   while (rows.next()) zones.push_back(read_zone(rows).zone);

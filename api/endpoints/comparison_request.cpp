@@ -59,7 +59,7 @@ Reference parse_named_reference(JsonObject& body, const std::string& name) {
   return PreviousReference{};
 }
 
-Reference parse_window(JsonObject& reference) {
+Reference parse_reference_window(JsonObject& reference) {
   reference.require("from");
   reference.require("to");
   const auto from = reference.time("from");
@@ -91,7 +91,7 @@ Reference parse_reference(JsonObject& body) {
     return PreviousReference{};
   }
   const bool is_list = reference->any("scans") != nullptr;
-  Reference parsed = is_list ? parse_scans(*reference) : parse_window(*reference);
+  Reference parsed = is_list ? parse_scans(*reference) : parse_reference_window(*reference);
   reference->finish();
   return parsed;
 }

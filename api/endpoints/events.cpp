@@ -59,7 +59,7 @@ std::optional<Gap> gap_behind(const Snapshot& snapshot, EventId after) {
   return std::nullopt;
 }
 
-Json render(const Gap& gap, EventId after) {
+Json render_gap(const Gap& gap, EventId after) {
   return {{"id", gap.resume.value}, {"type", "gap"}, {"after", after.value}, {"text", gap.text}};
 }
 
@@ -97,9 +97,9 @@ class EventStream {
       text += "id: " + std::to_string(id.value) + "\nevent: " + type + "\ndata: " + to_json_text(data) + "\n\n";
       last_ = id;
     };
-    if (const std::optional<Gap> gap = gap_behind(snapshot, last_)) add(gap->resume, "gap", render(*gap, last_));
+    if (const std::optional<Gap> gap = gap_behind(snapshot, last_)) add(gap->resume, "gap", render_gap(*gap, last_));
     for (const Event& event : events_after(snapshot, last_, site_, kBatch)) {
-      add(event.id, event.type, raywatch::render(snapshot, event));
+      add(event.id, event.type, render(snapshot, event));
     }
     return text;
   }
@@ -141,10 +141,10 @@ HttpAnswer list_events(Call& call) {
     const bool more = events.size() > limit;
     if (more) events.resize(limit);
     Json items = Json::array();
-    for (const Event& event : events) items.push_back(raywatch::render(snapshot, event));
+    for (const Event& event : events) items.push_back(render(snapshot, event));
     const std::optional<Gap> gap = given_after ? gap_behind(snapshot, after) : std::nullopt;
     return Json{{"items", std::move(items)},
-                {"gap", gap ? render(*gap, after) : Json(nullptr)},
+                {"gap", gap ? render_gap(*gap, after) : Json(nullptr)},
                 {"next", more ? Json(std::to_string(events.back().id.value)) : Json(nullptr)}};
   }));
 }

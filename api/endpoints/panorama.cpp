@@ -13,7 +13,7 @@ namespace {
 
 enum class PanoramaFormat { json, bin };
 
-PanoramaFormat parse_format(const std::string& name) {
+PanoramaFormat parse_panorama_format(const std::string& name) {
   if (name == "json") return PanoramaFormat::json;
   if (name == "bin") return PanoramaFormat::bin;
   throw InvalidInput("must be json or bin");
@@ -48,7 +48,7 @@ HttpAnswer render_bin(const Panorama& panorama) {
 }  // namespace
 
 HttpAnswer get_panorama(Call& call) {
-  const auto format = call.query.parsed("format", parse_format).value_or(PanoramaFormat::json);
+  const auto format = call.query.parsed("format", parse_panorama_format).value_or(PanoramaFormat::json);
   call.query.finish();
   const auto id = id_in_path<ScanId>(call.path[0]);
   const ScanRecord scan = call.services.store.read([&](const Snapshot& snapshot) { return scan_with(snapshot, id); });

@@ -31,7 +31,7 @@ void parse_kinds(JsonObject& body, Rule& rule) {
   for (const nlohmann::json& kind : *kinds) (kind == "added" ? rule.added : rule.removed) = true;
 }
 
-ScheduleWindow parse_window(JsonObject window, FieldErrors& errors, const std::string& name) {
+ScheduleWindow parse_schedule_window(JsonObject window, FieldErrors& errors, const std::string& name) {
   ScheduleWindow result;
   if (const nlohmann::json* days = window.any("days")) {
     result.days = {};
@@ -49,7 +49,7 @@ ScheduleWindow parse_window(JsonObject window, FieldErrors& errors, const std::s
   return result;
 }
 
-void parse_schedule(JsonObject& body, FieldErrors& errors, Rule& rule) {
+void parse_schedule_windows(JsonObject& body, FieldErrors& errors, Rule& rule) {
   constexpr std::size_t kMostWindows = 100;
   const nlohmann::json* windows = body.any("schedule");
   if (windows == nullptr || windows->is_null()) return;
@@ -58,7 +58,7 @@ void parse_schedule(JsonObject& body, FieldErrors& errors, Rule& rule) {
   }
   for (std::size_t i = 0; i < windows->size(); ++i) {
     const std::string name = "schedule." + std::to_string(i);
-    rule.schedule.push_back(parse_window(JsonObject((*windows)[i], name, errors), errors, name));
+    rule.schedule.push_back(parse_schedule_window(JsonObject((*windows)[i], name, errors), errors, name));
   }
 }
 
@@ -87,14 +87,14 @@ GivenRule parse_rule(const nlohmann::json& json, const std::string& place, Field
   rule.min_extent_m = body.real("min_extent_m", {.min = 0.0}).value_or(0.0);
   parse_persistence(body, rule);
   rule.severity = body.parsed("severity", parse_severity).value_or(rule.severity);
-  parse_schedule(body, errors, rule);
+  parse_schedule_windows(body, errors, rule);
   rule.enabled = body.flag("enabled").value_or(true);
   rule.auto_resolve = body.flag("auto_resolve").value_or(true);
   body.finish();
   return given;
 }
 
-GivenRule parse_whole(const nlohmann::json& json) {
+GivenRule parse_whole_rule(const nlohmann::json& json) {
   FieldErrors errors;
   GivenRule given = parse_rule(json, "", errors);
   errors.throw_if_any();
@@ -113,7 +113,7 @@ Site site_of(const Snapshot& snapshot, const GivenRule& given) {
 
 HttpAnswer create_rule(Call& call) {
   call.query.finish();
-  const GivenRule given = parse_whole(json_body(call));
+  const GivenRule given = parse_whole_rule(json_body(call));
   const Time now = call.services.now();
   const Json json = call.services.store.write([&](Transaction& transaction) {
     const Site site = site_of(transaction, given);
@@ -138,7 +138,7 @@ HttpAnswer get_rule(Call& call) {
 HttpAnswer replace_rule(Call& call) {
   call.query.finish();
   const auto id = id_in_path<RuleId>(call.path[0]);
-  const GivenRule given = parse_whole(json_body(call));
+  const GivenRule given = parse_whole_rule(json_body(call));
   const auto if_match = call.header("If-Match");
   const Time now = call.services.now();
   const Json json = call.services.store.write([&](Transaction& transaction) {

@@ -13,7 +13,7 @@ namespace {
 
 enum class GridFormat { json, bin };
 
-GridFormat parse_format(const std::string& name) {
+GridFormat parse_grid_format(const std::string& name) {
   if (name == "json") return GridFormat::json;
   if (name == "bin") return GridFormat::bin;
   throw InvalidInput("must be json or bin");
@@ -109,7 +109,7 @@ HttpAnswer render_bin(const SurveyResult& survey, const Eigen::Vector3d& origin_
 }  // namespace
 
 HttpAnswer get_survey_grid(Call& call) {
-  const auto format = call.query.parsed("format", parse_format).value_or(GridFormat::json);
+  const auto format = call.query.parsed("format", parse_grid_format).value_or(GridFormat::json);
   call.query.finish();
   const auto id = id_in_path<SurveyId>(call.path[0]);
   OutputFrame frame;

@@ -19,15 +19,15 @@ namespace raywatch::endpoints {
 namespace {
 
 /// An epoch that there is, or the window of one that is to be made.
-using GivenEpoch = std::variant<EpochId, GivenWindow>;
+using EpochOrWindow = std::variant<EpochId, GivenWindow>;
 
 struct GivenSurvey {
   std::string site;
-  GivenEpoch before, after;
+  EpochOrWindow before, after;
   SurveyDefinition definition;
 };
 
-GivenEpoch parse_epoch(JsonObject& body, const char* member) {
+EpochOrWindow parse_epoch_or_window(JsonObject& body, const char* member) {
   body.require(member);
   const nlohmann::json* value = body.any(member);
   if (value == nullptr || !value->is_object()) return EpochId{body.integer(member, {.min = 1}).value_or(0)};
@@ -43,8 +43,8 @@ GivenSurvey parse_survey(const nlohmann::json& json) {
   GivenSurvey given;
   body.require("site");
   given.site = body.text("site").value_or("");
-  given.before = parse_epoch(body, "before");
-  given.after = parse_epoch(body, "after");
+  given.before = parse_epoch_or_window(body, "before");
+  given.after = parse_epoch_or_window(body, "after");
   given.definition = parse_definition(body, errors);
   body.finish();
   errors.throw_if_any();
@@ -52,7 +52,7 @@ GivenSurvey parse_survey(const nlohmann::json& json) {
 }
 
 /// An epoch that a survey by hand may use; one of a window has no id yet.
-EpochRecord usable_epoch(const Snapshot& snapshot, const GivenEpoch& given, SiteId site, const std::string& member) {
+EpochRecord usable_epoch(const Snapshot& snapshot, const EpochOrWindow& given, SiteId site, const std::string& member) {
   if (const auto* window = std::get_if<GivenWindow>(&given)) {
     return epoch_of_window(snapshot, site, *window, member + ".");
   }

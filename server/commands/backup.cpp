@@ -13,7 +13,7 @@
 namespace raywatch {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kBackupFooter = R"(
 The copy is consistent, also while scans arrive. To restore, start a daemon with the copy as its --data-dir.
 With --server the running daemon writes the copy, on its own machine. With --data-dir the files are copied directly;
 that is refused while a daemon uses them.
@@ -24,7 +24,7 @@ Examples:
 
 Exit codes: 0 done, 1 failed, 2 wrong arguments.)";
 
-struct Options {
+struct BackupOptions {
   std::string output;
   std::string server = "http://127.0.0.1:8420";
   std::string data_dir;
@@ -43,7 +43,7 @@ void backup_files(const std::filesystem::path& data_dir, const std::filesystem::
   store.backup(output);
 }
 
-int run_backup(const Options& options) {
+int run_backup(const BackupOptions& options) {
   const std::filesystem::path output = std::filesystem::absolute(options.output);
   options.data_dir.empty() ? backup_through(options.server, output) : backup_files(options.data_dir, output);
   std::cout << "copied to " << output.string() << '\n';
@@ -54,8 +54,8 @@ int run_backup(const Options& options) {
 
 void add_backup(CLI::App& program, Run& run) {
   CLI::App* command = program.add_subcommand("backup", "Copy a store consistently, also while it is in use");
-  const auto options = std::make_shared<Options>();
-  command->footer(kFooter);
+  const auto options = std::make_shared<BackupOptions>();
+  command->footer(kBackupFooter);
   command->add_option("output", options->output, "A new or empty directory")->required()->type_name("OUTPUT_DIR");
   CLI::Option* server =
       command->add_option("--server", options->server, "The daemon's address")->type_name("URL")->capture_default_str();

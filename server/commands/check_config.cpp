@@ -10,7 +10,7 @@
 namespace raywatch {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kCheckConfigFooter = R"(
 Example:
   raywatch check-config /etc/raywatch/raywatch.toml
 
@@ -32,7 +32,7 @@ int check(const std::string& file) {
 void add_check_config(CLI::App& program, Run& run) {
   CLI::App* command = program.add_subcommand("check-config", "Say what is wrong in a configuration file, and where");
   const auto file = std::make_shared<std::string>();
-  command->footer(kFooter);
+  command->footer(kCheckConfigFooter);
   command->add_option("file", *file, "The configuration file")->required()->type_name("FILE");
   command->callback([&run, file] { run = [file] { return check(*file); }; });
 }

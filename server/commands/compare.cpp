@@ -20,7 +20,7 @@
 namespace raywatch {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kCompareFooter = R"(
 Reads PCD, PLY, LAS, PTX, XYZ and CSV text, and KITTI .bin. What a file does not say itself stands in FILE.json:
   {"captured_at": "2026-03-01T02:10:00Z", "frame": "sensor",
    "pose": {"position_m": [0, 0, 1.5], "orientation_xyzw": [0, 0, 0, 1]}}
@@ -40,7 +40,7 @@ constexpr RealBounds kDistance_m{.min = 0.0, .max = 1e6, .exclusive_min = true};
 constexpr IntegerBounds kThreads{.min = 0, .max = 1024};
 
 /// The command line as it was given; what is not given follows the profile and the grouping.
-struct Options {
+struct CompareOptions {
   std::string scan;
   std::vector<std::string> priors;
   std::string grouping = "consensus", profile = "indoor";
@@ -53,7 +53,7 @@ struct Options {
   std::string output, removed_output;
 };
 
-CompareParameters parameters_of(const Options& options) {
+CompareParameters parameters_of(const CompareOptions& options) {
   CompareParameters p = default_parameters(parse_profile(options.profile), parse_grouping(options.grouping));
   if (options.angle_deg) p.angle_rad = *options.angle_deg * std::numbers::pi / 180.0;
   p.range_m = options.range_m.value_or(p.range_m);
@@ -71,7 +71,7 @@ CompareParameters parameters_of(const Options& options) {
   return p;
 }
 
-int compare_and_report(const Options& options) {
+int compare_and_report(const CompareOptions& options) {
   Stopwatch total;
   const FileComparisonRequest request{.scan = options.scan,
                                       .priors = {options.priors.begin(), options.priors.end()},
@@ -86,7 +86,7 @@ int compare_and_report(const Options& options) {
   return std::cout ? kExitDone : kExitFailed;
 }
 
-int run_compare(const Options& options) {
+int run_compare(const CompareOptions& options) {
   if (options.threads == 0) return compare_and_report(options);
   // So many, even if there are fewer cores.
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
@@ -99,8 +99,8 @@ int run_compare(const Options& options) {
 
 void add_compare(CLI::App& program, Run& run) {
   CLI::App* command = program.add_subcommand("compare", "Compare scan files without a daemon");
-  const auto options = std::make_shared<Options>();
-  command->footer(kFooter);
+  const auto options = std::make_shared<CompareOptions>();
+  command->footer(kCompareFooter);
   command->add_option("new", options->scan, "The scan that is compared")->required()->type_name("NEW");
   command->add_option("--against", options->priors, "An earlier scan; may be given several times")
       ->required()

@@ -14,7 +14,7 @@
 namespace raywatch {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kIngestFooter = R"(
 What a file does not say itself (capture time, pose, frame, sensor) is taken from FILE.json beside it:
   {"captured_at": "2026-03-01T02:10:00Z", "frame": "sensor",
    "pose": {"position_m": [0, 0, 1.5], "orientation_xyzw": [0, 0, 0, 1]}}
@@ -30,7 +30,7 @@ Examples:
 
 Exit codes: 0 all files are on the server, 1 some are not (the summary says which and why), 2 wrong arguments.)";
 
-struct Options {
+struct IngestOptions {
   std::vector<std::string> files;
   std::string server = "http://127.0.0.1:8420";
   UploadOptions upload;
@@ -38,7 +38,7 @@ struct Options {
   std::optional<int> wait_s;
 };
 
-int run_ingest(const Options& options) {
+int run_ingest(const IngestOptions& options) {
   const std::vector<std::filesystem::path> files = find_scan_files({options.files.begin(), options.files.end()});
   UploadOptions upload = options.upload;
   upload.patience = std::chrono::seconds(options.patience_s);
@@ -58,8 +58,8 @@ int run_ingest(const Options& options) {
 
 void add_ingest(CLI::App& program, Run& run) {
   CLI::App* command = program.add_subcommand("ingest", "Upload scan files to a running daemon");
-  const auto options = std::make_shared<Options>();
-  command->footer(kFooter);
+  const auto options = std::make_shared<IngestOptions>();
+  command->footer(kIngestFooter);
   command->add_option("files", options->files, "Scan files, or directories of them")->required()->type_name("FILE");
   command->add_option("--server", options->server, "The daemon's address")->type_name("URL")->capture_default_str();
   command->add_option("--sensor", options->upload.sensor, "What took the scans; else the side-cars say so")

@@ -20,7 +20,7 @@
 namespace raywatch {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kServeFooter = R"(
 Options win over the configuration file. There are no accounts: other addresses than loopback need --allow-remote.
 Stops cleanly on SIGTERM and SIGINT. Nothing that was answered with 201 is lost, however it ends.
 
@@ -30,7 +30,7 @@ Examples:
 
 Exit codes: 0 stopped by a signal, 1 could not start or go on, 2 wrong arguments or configuration.)";
 
-struct Options {
+struct ServeOptions {
   std::string config;
   std::optional<std::string> listen;
   SettingsGiven given;
@@ -59,7 +59,7 @@ std::filesystem::path dashboard_beside_program() {
   return {};
 }
 
-Settings settings_of(const Options& options) {
+Settings settings_of(const ServeOptions& options) {
   SettingsGiven given = options.given;
   if (options.listen) set_address(*options.listen, given);
   Settings settings =
@@ -84,7 +84,7 @@ std::string url_of(const HttpConfig& http, std::uint16_t port) {
   return "http://" + host + ":" + std::to_string(port);
 }
 
-int run_serve(const Options& options) {
+int run_serve(const ServeOptions& options) {
   const Settings settings = settings_of(options);
   const sigset_t stop_signals = block_stop_signals();
   start_log(settings.log);
@@ -110,8 +110,8 @@ int run_serve(const Options& options) {
 
 void add_serve(CLI::App& program, Run& run) {
   CLI::App* command = program.add_subcommand("serve", "Run the daemon");
-  const auto options = std::make_shared<Options>();
-  command->footer(kFooter);
+  const auto options = std::make_shared<ServeOptions>();
+  command->footer(kServeFooter);
   command->add_option("--config", options->config, "Settings; see config/raywatch.toml for all of them")
       ->type_name("FILE");
   command->add_option("--data-dir", options->given.data_dir, "Where everything is kept (default: raywatch-data)")

@@ -20,7 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// So long it takes at most until what became due by the clock alone is seen.
-constexpr std::chrono::seconds kPatience{1};
+constexpr std::chrono::seconds kChannelPatience{1};
 /// After so many failures in a row it was the receiver: when it is back, everything that waits is sent at once.
 constexpr std::uint32_t kOutage = 3;
 
@@ -78,9 +78,9 @@ void ChannelRunner::work(const std::stop_token& stop) {
 /// Until something was committed, or until the pace allows the next message.
 void ChannelRunner::wait(std::uint64_t seen, const std::stop_token& stop) {
   const auto now = Clock::now();
-  const auto paced = std::min(pace_.next(), now + kPatience);
+  const auto paced = std::min(pace_.next(), now + kChannelPatience);
   if (paced <= now) {
-    store_.commits().wait_past(seen, now + kPatience);
+    store_.commits().wait_past(seen, now + kChannelPatience);
     return;
   }
   std::mutex mutex;

@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kPatience{1};
+constexpr std::chrono::seconds kDelivererPatience{1};
 constexpr std::chrono::hours kPruneEvery{1};
 /// At once, so that others can write between.
 constexpr std::int64_t kPruned = 1000;
@@ -47,7 +47,7 @@ void Deliverer::supervise() {
     } catch (const std::exception& error) {
       spdlog::error("the channels cannot be looked after: {}", error.what());
     }
-    if (!stop.stop_requested()) store_.commits().wait_past(seen, Clock::now() + kPatience);
+    if (!stop.stop_requested()) store_.commits().wait_past(seen, Clock::now() + kDelivererPatience);
   }
   for (const auto& [id, runner] : runners_) runner->request_stop();
   runners_.clear();

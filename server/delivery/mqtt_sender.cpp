@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 /// A broker that is not there is looked for this often for the sake of the state alone; and so often, at most, the
 /// state is looked at while much happens.
-constexpr std::chrono::milliseconds kRest{10'000}, kPause{500};
+constexpr std::chrono::milliseconds kBrokerRest{10'000}, kStatePause{500};
 constexpr const char* kStatus = "status";
 
 /// Below the prefix: by site, so that who is responsible for one hears of that alone.
@@ -64,7 +64,7 @@ SendResult MqttSender::send(const Message& message, const std::stop_token& stop)
   result.delivered = result.error.empty();
   result.interrupted = !result.delivered && stop.stop_requested();
   if (!result.delivered) connection_.reset();
-  if (result.delivered) rest_until_ = std::min(rest_until_, Clock::now() + kPause);  // the broker is there again
+  if (result.delivered) rest_until_ = std::min(rest_until_, Clock::now() + kStatePause);  // the broker is there again
   return result;
 }
 
@@ -72,11 +72,11 @@ void MqttSender::tend(const std::stop_token& stop) {
   if (!state_ || Clock::now() < rest_until_) return;
   std::string trouble = connect(stop);
   if (trouble.empty()) trouble = publish_state(stop);
-  rest_until_ = Clock::now() + kPause;
+  rest_until_ = Clock::now() + kStatePause;
   if (trouble.empty() || stop.stop_requested()) return;
   spdlog::warn("MQTT broker {}: the state cannot be shown: {}", settings_.host, trouble);
   connection_.reset();
-  rest_until_ = Clock::now() + kRest;
+  rest_until_ = Clock::now() + kBrokerRest;
 }
 
 std::string MqttSender::publish_state(const std::stop_token& stop) {

@@ -21,8 +21,8 @@ struct Entry {
 };
 using Entries = std::map<std::string_view, Entry>;
 
-constexpr std::array<std::string_view, 10> kKnown = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
-                                                     "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
+constexpr std::array<std::string_view, 10> kKnownEntries = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
+                                                            "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
 
 [[noreturn]] void refuse(const Entry& entry, const std::string& message) {
   throw InvalidInput(at_line(entry.line) + "PCD header: " + message);
@@ -148,7 +148,7 @@ Entries collect_entries(std::string_view file, PcdHeader& header) {
       continue;
     }
     const std::string_view name = words[0] == "COLUMNS" ? "FIELDS" : words[0];  // as version 0.5 calls them
-    if (std::ranges::find(kKnown, name) == kKnown.end()) {
+    if (std::ranges::find(kKnownEntries, name) == kKnownEntries.end()) {
       throw InvalidInput(at_line(lines.number()) + shown(name) + " is no entry of a PCD header");
     }
     const Entry entry{lines.number(), Words(words.begin() + 1, words.end())};

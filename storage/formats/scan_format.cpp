@@ -22,7 +22,7 @@ constexpr std::array kNames = {
     FormatName{"asc", ScanFormat::text}, FormatName{"bin", ScanFormat::kitti},
 };
 
-constexpr std::string_view kKnown =
+constexpr std::string_view kKnownFormats =
     "known are pcd, ply, las (uncompressed), ptx, text (xyz, csv, txt, asc) and kitti (bin)";
 
 /// Whatever shows the format stands in so many bytes.
@@ -94,7 +94,7 @@ std::optional<ScanFormat> format_of_content(std::string_view text) {
   if (text.starts_with("ply\n") || text.starts_with("ply\r\n")) return ScanFormat::ply;
   if (text.starts_with("LASF")) return ScanFormat::las;
   if (text.starts_with("RWPB")) {
-    throw UnsupportedFormat("this is a point table that raywatch wrote, not a scan; " + std::string(kKnown));
+    throw UnsupportedFormat("this is a point table that raywatch wrote, not a scan; " + std::string(kKnownFormats));
   }
   if (looks_like_ptx(text)) return ScanFormat::ptx;
   if (looks_like_table(text)) return ScanFormat::text;
@@ -110,7 +110,7 @@ ScanFormat detect_scan_format(std::span<const std::byte> bytes, std::string_view
     throw UnsupportedFormat("compressed LAS (LAZ) is not read; please decompress it to LAS first");
   }
   if (const auto format = format_named(ending_of(name))) return *format;
-  throw UnsupportedFormat("neither the content nor the ending of a name shows a format; " + std::string(kKnown) +
+  throw UnsupportedFormat("neither the content nor the ending of a name shows a format; " + std::string(kKnownFormats) +
                           ". KITTI shows only in the ending: for a file with another one, or an upload, give "
                           "format=kitti");
 }
@@ -126,7 +126,7 @@ ScanFormat scan_format_of(const std::filesystem::path& file) {
 
 ScanFormat parse_scan_format(std::string_view name) {
   if (const auto format = format_named(name)) return *format;
-  throw UnsupportedFormat(shown(name) + " is no scan format; " + std::string(kKnown));
+  throw UnsupportedFormat(shown(name) + " is no scan format; " + std::string(kKnownFormats));
 }
 
 std::string_view to_string(ScanFormat format) { return std::ranges::find(kNames, format, &FormatName::format)->name; }

@@ -34,7 +34,7 @@ std::filesystem::path side_car_path(const std::filesystem::path& scan_file) {
 }
 
 /// Where something stands, for messages: the side-car's name and the member.
-struct Place {
+struct Member {
   std::string_view file;
   std::string member;
 
@@ -43,19 +43,19 @@ struct Place {
   }
 };
 
-void check_members(const Json& object, std::span<const std::string_view> known, const Place& parent) {
+void check_members(const Json& object, std::span<const std::string_view> known, const Member& parent) {
   for (const auto& item : object.items()) {
     const std::string& key = item.key();
     if (std::ranges::find(known, std::string_view(key)) != known.end()) continue;
     const std::string_view shortened = std::string_view(key).substr(0, 64);
     const std::string name =
         parent.member.empty() ? std::string(shortened) : parent.member + "." + std::string(shortened);
-    Place{parent.file, name}.refuse("unknown member" +
-                                    suggestion(shortened, std::vector<std::string>(known.begin(), known.end())));
+    Member{parent.file, name}.refuse("unknown member" +
+                                     suggestion(shortened, std::vector<std::string>(known.begin(), known.end())));
   }
 }
 
-std::string text_of(const Json& value, const Place& place) {
+std::string text_of(const Json& value, const Member& place) {
   if (!value.is_string()) place.refuse("must be a string");
   return value.get<std::string>();
 }
@@ -67,7 +67,7 @@ Json parse_json(std::string_view text, std::string_view file) {
     if (event == Json::parse_event_t::object_start) open_objects.emplace_back();
     if (event == Json::parse_event_t::object_end) open_objects.pop_back();
     if (event == Json::parse_event_t::key && !open_objects.back().insert(value.get<std::string>()).second) {
-      Place{file, value.get<std::string>()}.refuse("stands there twice");
+      Member{file, value.get<std::string>()}.refuse("stands there twice");
     }
     return true;
   };
@@ -81,7 +81,7 @@ Json parse_json(std::string_view text, std::string_view file) {
 
 /// What `parse` makes of the text; names the place when it refuses.
 template <class Parse>
-auto parsed(const Place& place, Parse parse, const std::string& text) {
+auto parsed(const Member& place, Parse parse, const std::string& text) {
   try {
     return parse(text);
   } catch (const InvalidInput& error) {
@@ -91,7 +91,7 @@ auto parsed(const Place& place, Parse parse, const std::string& text) {
 
 template <int n>
 Eigen::Matrix<double, n, 1> vector_of(const Json& pose, const char* member, std::string_view file) {
-  const Place place{file, "pose." + std::string(member)};
+  const Member place{file, "pose." + std::string(member)};
   const auto found = pose.find(member);
   if (found == pose.end()) place.refuse("is missing");
   const bool numbers = found->is_array() && found->size() == n &&
@@ -103,7 +103,7 @@ Eigen::Matrix<double, n, 1> vector_of(const Json& pose, const char* member, std:
 }
 
 Pose pose_of(const Json& value, std::string_view file) {
-  const Place place{file, "pose"};
+  const Member place{file, "pose"};
   if (!value.is_object()) place.refuse("must be an object");
   check_members(value, kPoseMembers, place);
   const Eigen::Vector3d position_m = vector_of<3>(value, "position_m", file);
@@ -111,7 +111,7 @@ Pose pose_of(const Json& value, std::string_view file) {
   return checked_pose_at(std::string(file) + ": pose", position_m, orientation_xyzw);
 }
 
-Json json_of(const Pose& pose) {
+Json pose_json(const Pose& pose) {
   const Eigen::Vector3d& p = pose.position_m;
   const Eigen::Quaterniond& q = pose.orientation;
   return {{"position_m", {p.x(), p.y(), p.z()}}, {"orientation_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
@@ -125,7 +125,7 @@ ScanHints parse_side_car(std::string_view json, std::string_view name) {
   check_members(root, kMembers, {name, ""});
   ScanHints hints;
   for (const auto& item : root.items()) {
-    const Place place{name, item.key()};
+    const Member place{name, item.key()};
     const Json& value = item.value();
     if (place.member == "captured_at") {
       hints.captured_at = parsed(place, parse_rfc3339, text_of(value, place));
@@ -154,7 +154,7 @@ void write_side_car(const std::filesystem::path& scan_file, const ScanHints& hin
   if (hints.captured_at) root["captured_at"] = format_rfc3339(*hints.captured_at);
   if (hints.sensor) root["sensor"] = *hints.sensor;
   if (hints.frame) root["frame"] = *hints.frame == Frame::sensor ? "sensor" : "world";
-  if (hints.pose) root["pose"] = json_of(*hints.pose);
+  if (hints.pose) root["pose"] = pose_json(*hints.pose);
   std::string text;
   try {
     text = root.dump(2);

@@ -14,11 +14,11 @@ namespace {
 using Cells = std::vector<std::string_view>;
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-constexpr char kBlanks = ' ';  ///< as a separator: any number of blanks and tabs
+constexpr char kAnyBlanks = ' ';  ///< as a separator: any number of blanks and tabs
 
 /// What the first line that is no comment says about all.
 struct TableShape {
-  char separator = kBlanks;
+  char separator = kAnyBlanks;
   std::size_t columns = 0;
   std::array<std::size_t, 3> xyz = {0, 1, 2};
   std::optional<std::size_t> intensity;
@@ -29,11 +29,11 @@ struct TableShape {
 char separator_of(std::string_view line) {
   if (line.find(';') != std::string_view::npos) return ';';
   if (line.find(',') != std::string_view::npos) return ',';
-  return kBlanks;
+  return kAnyBlanks;
 }
 
 void split(std::string_view line, char separator, Cells& cells) {
-  if (separator == kBlanks) {
+  if (separator == kAnyBlanks) {
     split_words(line, cells);
   } else {
     split_cells(line, separator, cells);

@@ -12,7 +12,7 @@ namespace raywatch {
 namespace {
 
 constexpr double kScale_m = 0.001;
-constexpr std::uint16_t kHeader_bytes = 375, kRecord_bytes = 30;
+constexpr std::uint16_t kLasHeader_bytes = 375, kRecord_bytes = 30;
 constexpr std::size_t kVlrHeader_bytes = 54, kLookup_bytes = 256 * 16;
 /// Global encoding: adjusted standard GPS time; coordinates described by WKT, as point format 6 demands.
 constexpr std::uint16_t kEncoding = 0x01 | 0x10;
@@ -67,7 +67,7 @@ void repeat(OutBuffer& out, T value, std::size_t times) {
 }
 
 std::uint32_t points_offset(const EpochLas& epoch) {
-  std::size_t bytes = kHeader_bytes + kVlrHeader_bytes + kLookup_bytes;
+  std::size_t bytes = kLasHeader_bytes + kVlrHeader_bytes + kLookup_bytes;
   if (!epoch.wkt.empty()) bytes += kVlrHeader_bytes + epoch.wkt.size() + 1;
   return static_cast<std::uint32_t>(bytes);
 }
@@ -82,7 +82,7 @@ void write_header(OutBuffer& out, const EpochLas& epoch, const Summary& summary)
   fixed_text(out, "raywatch", 32);
   fixed_text(out, "raywatch " + epoch.program_version, 32);
   repeat<std::uint16_t>(out, 0, 2);  // day and year of creation: not known, so that equal surveys give equal bytes
-  out.bits(kHeader_bytes);
+  out.bits(kLasHeader_bytes);
   out.bits(points_offset(epoch));
   out.bits<std::uint32_t>(epoch.wkt.empty() ? 1 : 2);
   out.bits<std::uint8_t>(6);

@@ -9,16 +9,16 @@
 namespace raywatch {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 using Outline = std::vector<Eigen::Vector2d>;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+OrderedJson number(double value) { return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr); }
 
-Json figure_json(const VolumeFigure& figure) {
+OrderedJson figure_json(const VolumeFigure& figure) {
   return {{"value", number(figure.value_m3)}, {"low", number(figure.low_m3())}, {"high", number(figure.high_m3())}};
 }
 
-Json bounds_json(const VolumeBounds& bounds) {
+OrderedJson bounds_json(const VolumeBounds& bounds) {
   return {{"low", number(bounds.low_m3)}, {"high", number(bounds.high_m3)}};
 }
 
@@ -56,11 +56,11 @@ class Collection {
                                     {"unit", "m"},
                                     {"wgs84", false}};
     }
-    json_["features"] = Json::array();
+    json_["features"] = OrderedJson::array();
   }
 
-  void add(const Outline& local_m, Json properties) {
-    Json ring = Json::array(), site_ring = Json::array();
+  void add(const Outline& local_m, OrderedJson properties) {
+    OrderedJson ring = OrderedJson::array(), site_ring = OrderedJson::array();
     const Outline outline_m = counter_clockwise(local_m);
     for (std::size_t i = 0; i <= outline_m.size(); ++i) {
       const Eigen::Vector2d& corner_m = outline_m[i % outline_m.size()];
@@ -70,22 +70,22 @@ class Collection {
       const Eigen::Vector2d degrees = to_wgs84_->longitude_latitude_deg(out_m);
       ring.push_back({degrees.x(), degrees.y()});
     }
-    Json feature = {{"type", "Feature"},
-                    {"geometry", {{"type", "Polygon"}, {"coordinates", {to_wgs84_ ? ring : site_ring}}}},
-                    {"properties", std::move(properties)}};
+    OrderedJson feature = {{"type", "Feature"},
+                           {"geometry", {{"type", "Polygon"}, {"coordinates", {to_wgs84_ ? ring : site_ring}}}},
+                           {"properties", std::move(properties)}};
     if (to_wgs84_) feature["site_outline_m"] = site_ring;
     json_["features"].push_back(std::move(feature));
   }
 
-  std::string text() const { return json_.dump(1, ' ', false, Json::error_handler_t::replace); }
+  std::string text() const { return json_.dump(1, ' ', false, OrderedJson::error_handler_t::replace); }
 
  private:
   const SurveyDocument& document_;
   std::optional<ToWgs84> to_wgs84_;
-  Json json_;
+  OrderedJson json_;
 };
 
-Json zone_properties(const ZoneFigures& zone) {
+OrderedJson zone_properties(const ZoneFigures& zone) {
   const ZoneVolumes& v = zone.volumes;
   return {{"type", "zone"},
           {"name", zone.zone.name},
@@ -99,14 +99,14 @@ Json zone_properties(const ZoneFigures& zone) {
           {"whole_m3", bounds_json(v.whole())}};
 }
 
-Json change_properties(const SurveyChange& change, std::size_t number_of, double base_m) {
-  Json properties = {{"type", "change"},
-                     {"number", number_of},
-                     {"kind", to_string(change.change.kind)},
-                     {"points", change.change.points},
-                     {"confidence", number(change.change.confidence.value)},
-                     {"z_min_m", number(change.change.bounds_m.min().z() + base_m)},
-                     {"z_max_m", number(change.change.bounds_m.max().z() + base_m)}};
+OrderedJson change_properties(const SurveyChange& change, std::size_t number_of, double base_m) {
+  OrderedJson properties = {{"type", "change"},
+                            {"number", number_of},
+                            {"kind", to_string(change.change.kind)},
+                            {"points", change.change.points},
+                            {"confidence", number(change.change.confidence.value)},
+                            {"z_min_m", number(change.change.bounds_m.min().z() + base_m)},
+                            {"z_max_m", number(change.change.bounds_m.max().z() + base_m)}};
   if (change.volume.seen_area_m2 > 0.0) properties["net_m3"] = figure_json(change.volume.net);
   return properties;
 }

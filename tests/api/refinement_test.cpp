@@ -10,7 +10,7 @@
 namespace raywatch {
 namespace {
 
-struct Points {
+struct RefinedPoints {
   std::vector<float> x_m, y_m, z_m;
   CoordinatePlanes view() const { return {x_m, y_m, z_m}; }
   void push_back(float x, float y, float z) {
@@ -23,7 +23,7 @@ struct Points {
 using Cell = std::array<int, 3>;
 
 /// The cells of 1/2^`round` of a cube with the edge `edge_m` at the origin that the points of these places are in.
-std::set<Cell> cells(const Points& points, std::span<const std::uint32_t> places, float edge_m, int round) {
+std::set<Cell> cells(const RefinedPoints& points, std::span<const std::uint32_t> places, float edge_m, int round) {
   std::set<Cell> found;
   const float count = static_cast<float>(1 << round);
   const auto index = [&](float value_m) {
@@ -34,7 +34,7 @@ std::set<Cell> cells(const Points& points, std::span<const std::uint32_t> places
 }
 
 TEST_CASE("the order begins with one point for each cell of a grid, then of one twice as fine, and so on") {
-  Points points;
+  RefinedPoints points;
   constexpr int kSide = 32;  // a floor, much denser in one corner
   for (int i = 0; i < kSide; ++i)
     for (int k = 0; k < kSide; ++k) points.push_back(static_cast<float>(i), static_cast<float>(k), 0.0F);
@@ -50,7 +50,7 @@ TEST_CASE("the order begins with one point for each cell of a grid, then of one 
 }
 
 TEST_CASE("half of a round covers the place as the whole does") {
-  Points points;
+  RefinedPoints points;
   for (int i = 0; i < 4096; ++i) points.push_back(static_cast<float>(i % 64), static_cast<float>(i / 64), 0.0F);
   const auto order = refinement_order(points.view());
   const std::span<const std::uint32_t> prefix(order.data(), 1024 + 1024);  // one third of the last round
@@ -62,7 +62,7 @@ TEST_CASE("half of a round covers the place as the whole does") {
 
 TEST_CASE("each finite point stands once in the order, whatever the coordinates are") {
   CHECK(rc::check([](const std::vector<std::array<std::int16_t, 3>>& coordinates, bool with_huge) {
-    Points points;
+    RefinedPoints points;
     std::set<std::uint32_t> expected;
     for (const auto& [x, y, z] : coordinates) {
       expected.insert(static_cast<std::uint32_t>(points.x_m.size()));

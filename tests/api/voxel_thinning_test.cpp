@@ -12,38 +12,38 @@
 namespace raywatch {
 namespace {
 
-struct Points {
+struct ThinnedPoints {
   std::vector<float> x_m, y_m, z_m;
   std::vector<std::uint8_t> groups;
   ThinningInput view() const { return {x_m, y_m, z_m, groups}; }
 };
 
 TEST_CASE("the point nearest to the mean of its voxel stays, the first of equals") {
-  const Points points{
+  const ThinnedPoints points{
       {0.1F, 0.5F, 0.9F, 1.25F, 1.75F}, {0.5F, 0.5F, 0.5F, 0.5F, 0.5F}, {0.5F, 0.5F, 0.5F, 0.5F, 0.5F}, {}};
   CHECK_EQ(thin(points.view(), 1.0), std::vector<std::uint32_t>{1, 3});
 }
 
 TEST_CASE("voxels reach to both sides of zero alike") {
-  const Points points{{-0.25F, 0.25F}, {0.0F, 0.0F}, {0.0F, 0.0F}, {}};
+  const ThinnedPoints points{{-0.25F, 0.25F}, {0.0F, 0.0F}, {0.0F, 0.0F}, {}};
   CHECK_EQ(thin(points.view(), 1.0).size(), 2);
 }
 
 TEST_CASE("groups never stand for each other") {
-  const Points points{{0.5F, 0.5F, 0.5F}, {0.5F, 0.5F, 0.5F}, {0.5F, 0.5F, 0.5F}, {0, 1, 0}};
+  const ThinnedPoints points{{0.5F, 0.5F, 0.5F}, {0.5F, 0.5F, 0.5F}, {0.5F, 0.5F, 0.5F}, {0, 1, 0}};
   CHECK_EQ(thin(points.view(), 1.0), std::vector<std::uint32_t>{0, 1});
 }
 
 TEST_CASE("what is not finite is left out, and no coordinate is too large") {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float huge = std::numeric_limits<float>::max();
-  const Points points{{nan, 1.0F, huge, 1.0F}, {0.0F, nan, huge, 0.0F}, {0.0F, 0.0F, -huge, 0.0F}, {}};
+  const ThinnedPoints points{{nan, 1.0F, huge, 1.0F}, {0.0F, nan, huge, 0.0F}, {0.0F, 0.0F, -huge, 0.0F}, {}};
   CHECK_EQ(thin(points.view(), 0.001), std::vector<std::uint32_t>{2, 3});
 }
 
 TEST_CASE("one point of every occupied voxel stays, and it is one of those in it") {
   CHECK(rc::check([](const std::vector<std::tuple<std::int8_t, std::int8_t, std::int8_t>>& places) {
-    Points points;
+    ThinnedPoints points;
     std::map<std::array<double, 3>, int> voxels;
     for (const auto& [x, y, z] : places) {
       points.x_m.push_back(static_cast<float>(x) * 0.25F);

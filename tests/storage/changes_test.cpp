@@ -10,7 +10,7 @@
 namespace raywatch {
 namespace {
 
-std::vector<ChangeRecord> all_pages(Store& store, const ChangeFilter& filter, std::size_t limit) {
+std::vector<ChangeRecord> all_changes(Store& store, const ChangeFilter& filter, std::size_t limit) {
   std::vector<ChangeRecord> changes;
   PageRequest request{.limit = limit, .cursor = std::nullopt};
   do {
@@ -53,7 +53,7 @@ TEST_CASE_FIXTURE(ChangeFixture, "a change comes back as it was given") {
   given.box.world_from_box = Eigen::Quaterniond(0.5, 0.5, 0.5, 0.5);
   given.confidence = {0.1, 0.2, 0.3, 0.4};
   const Job job = finish_next_job(store, site.id, {change_at({0.0, 0.0, 0.0}), given});
-  const ChangeRecord listed = all_pages(store, {}, 100).at(1);
+  const ChangeRecord listed = all_changes(store, {}, 100).at(1);
   const ChangeRecord record = store.read([&](const Snapshot& s) { return find_change(s, listed.id).value(); });
   CHECK(record.comparison == job.comparison);
   CHECK(record.place == 1);
@@ -71,17 +71,17 @@ TEST_CASE_FIXTURE(ChangeFixture, "a change comes back as it was given") {
 
 TEST_CASE_FIXTURE(ChangeFixture,
                   "changes are listed newest capture first, then by comparison and place, at any page size") {
-  const std::vector<ChangeRecord> all = all_pages(store, {}, 1000);
+  const std::vector<ChangeRecord> all = all_changes(store, {}, 1000);
   REQUIRE(all.size() == 90);
   const auto key = [](const ChangeRecord& c) {
     return std::tuple(-c.captured_at.time_since_epoch(), c.comparison, c.place);
   };
   CHECK(std::is_sorted(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); }));
-  for (const std::size_t limit : {1, 7, 30, 45}) CHECK(ids_of(all_pages(store, {}, limit)) == ids_of(all));
+  for (const std::size_t limit : {1, 7, 30, 45}) CHECK(ids_of(all_changes(store, {}, limit)) == ids_of(all));
 }
 
 TEST_CASE_FIXTURE(ChangeFixture, "every combination of filters gives what it says") {
-  const std::vector<ChangeRecord> all = all_pages(store, {}, 1000);
+  const std::vector<ChangeRecord> all = all_changes(store, {}, 1000);
   const Eigen::AlignedBox3d box_m(Eigen::Vector3d(-4.0, -6.0, -3.0), Eigen::Vector3d(5.0, 4.0, 8.0));
   for (unsigned bits = 0; bits < 128; ++bits) {
     CAPTURE(bits);
@@ -102,7 +102,7 @@ TEST_CASE_FIXTURE(ChangeFixture, "every combination of filters gives what it say
                         (!filter.box_m || filter.box_m->intersects(c.change.bounds_m));
       if (fits) wanted.push_back(c.id);
     }
-    CHECK(ids_of(all_pages(store, filter, 8)) == wanted);
+    CHECK(ids_of(all_changes(store, filter, 8)) == wanted);
   }
 }
 
@@ -115,7 +115,7 @@ TEST_CASE_FIXTURE(StoreFixture, "a box that many changes meet is answered throug
   filter.site = site.id;
   // The cubes whose centre is at most half a metre beyond the box meet it: x <= 55.5.
   filter.box_m = Eigen::AlignedBox3d(Eigen::Vector3d(-1.0, -1.0, -1.0), Eigen::Vector3d(55.004, 1.0, 1.0));
-  CHECK(all_pages(store, filter, 1000).size() == 5551);
+  CHECK(all_changes(store, filter, 1000).size() == 5551);
 }
 
 TEST_CASE_FIXTURE(StoreFixture, "a box finds a change that it misses by rounding to floats only if they really meet") {
@@ -128,7 +128,7 @@ TEST_CASE_FIXTURE(StoreFixture, "a box finds a change that it misses by rounding
   filter.site = site.id;
   const auto found_up_to = [&](double x_m) {
     filter.box_m = Eigen::AlignedBox3d(Eigen::Vector3d(0.0, 0.0, 0.0), Eigen::Vector3d(x_m, 1.0, 1.0));
-    return all_pages(store, filter, 10).size();
+    return all_changes(store, filter, 10).size();
   };
   CHECK(found_up_to(edge_m) == 1);
   CHECK(found_up_to(std::nextafter(edge_m, 0.0)) == 0);
@@ -137,7 +137,7 @@ TEST_CASE_FIXTURE(StoreFixture, "a box finds a change that it misses by rounding
 TEST_CASE_FIXTURE(StoreFixture, "a box without a site is refused") {
   ChangeFilter filter;
   filter.box_m = Eigen::AlignedBox3d(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones());
-  CHECK_THROWS_AS(all_pages(store, filter, 10), InvalidInput);
+  CHECK_THROWS_AS(all_changes(store, filter, 10), InvalidInput);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace raywatch {
 namespace {
 
-ComparisonRecord found(Store& store, ComparisonId id) {
+ComparisonRecord found_comparison(Store& store, ComparisonId id) {
   return store.read([&](const Snapshot& s) { return find_comparison(s, id).value(); });
 }
 
@@ -30,7 +30,7 @@ TEST_CASE_FIXTURE(StoreFixture, "a comparison keeps each kind of reference and i
   for (const Reference& reference : references) {
     const ComparisonId id = store.write(
         [&](Transaction& t) { return insert_comparison(t, scan.id, reference, parameters, at_second(4)).id; });
-    const ComparisonRecord comparison = found(store, id);
+    const ComparisonRecord comparison = found_comparison(store, id);
     CHECK((comparison.reference == reference));
     CHECK(comparison.scan == scan.id);
     CHECK(comparison.site == site.id);
@@ -83,7 +83,7 @@ TEST_CASE_FIXTURE(StoreFixture, "a result comes back whole") {
   result.changes = {change_at({1.0, 2.0, 3.0}), change_at({4.0, 5.0, 6.0}, ChangeKind::removed)};
   CHECK(store.write([&](Transaction& t) { return finish_job(t, job, result, at_second(9)); }));
 
-  const ComparisonRecord done = found(store, queued.id);
+  const ComparisonRecord done = found_comparison(store, queued.id);
   CHECK(done.state == ComparisonState::done);
   CHECK(done.counts == result.counts);
   CHECK(done.testable == 0.9);

@@ -9,7 +9,7 @@ namespace raywatch {
 namespace {
 
 /// All pages of a list, joined.
-std::vector<ScanId> all_pages(Store& store, const ScanFilter& filter, std::size_t limit) {
+std::vector<ScanId> all_scans(Store& store, const ScanFilter& filter, std::size_t limit) {
   std::vector<ScanId> ids;
   PageRequest request{.limit = limit, .cursor = std::nullopt};
   do {
@@ -65,7 +65,7 @@ TEST_CASE_FIXTURE(ScanListFixture, "every combination of filters gives what it s
              (!filter.from || scan.captured_at >= *filter.from) && (!filter.to || scan.captured_at < *filter.to) &&
              (!near || scan.pose.position_m.norm() < 3.0);
     });
-    for (const std::size_t limit : {1, 2, 5, 100}) CHECK(all_pages(store, filter, limit) == wanted);
+    for (const std::size_t limit : {1, 2, 5, 100}) CHECK(all_scans(store, filter, limit) == wanted);
   }
 }
 
@@ -73,10 +73,10 @@ TEST_CASE_FIXTURE(ScanListFixture, "a sensor or a vantage of another site has no
   ScanFilter filter;
   filter.site = add_site(store, "yard").id;
   filter.sensor = sensor.id;
-  CHECK(all_pages(store, filter, 10).empty());
+  CHECK(all_scans(store, filter, 10).empty());
   filter.sensor.reset();
   filter.vantage = scans[0].vantage;
-  CHECK(all_pages(store, filter, 10).empty());
+  CHECK(all_scans(store, filter, 10).empty());
 }
 
 TEST_CASE_FIXTURE(ScanListFixture, "a list goes on behind its last item though newer scans arrived") {
@@ -101,13 +101,13 @@ TEST_CASE_FIXTURE(StoreFixture, "around many vantages a list is found through ti
   filter.site = site.id;
   filter.near_m = Eigen::Vector3d::Zero();
   filter.near_radius_m = 0.3 * 550 - 0.1;
-  CHECK(all_pages(store, filter, 70) == std::vector(newest_first.begin() + 50, newest_first.end()));
+  CHECK(all_scans(store, filter, 70) == std::vector(newest_first.begin() + 50, newest_first.end()));
 }
 
 TEST_CASE_FIXTURE(StoreFixture, "a place without a site is refused") {
   ScanFilter filter;
   filter.near_m = Eigen::Vector3d::Zero();
-  CHECK_THROWS_AS(all_pages(store, filter, 10), InvalidInput);
+  CHECK_THROWS_AS(all_scans(store, filter, 10), InvalidInput);
 }
 
 TEST_CASE_FIXTURE(StoreFixture, "the latest scan of a vantage lies between two times") {

@@ -8,7 +8,7 @@
 namespace raywatch {
 namespace {
 
-ScanRecord found(Store& store, ScanId id) {
+ScanRecord found_scan(Store& store, ScanId id) {
   return store.read([&](const Snapshot& s) { return find_scan(s, id).value(); });
 }
 
@@ -25,7 +25,7 @@ TEST_CASE_FIXTURE(StoreFixture, "a scan comes back as it was given, queued") {
   given.payload = {"payload/1/2026-01.db", 5};
   given.stored_bytes = 999;
   const ScanId id = store.write([&](Transaction& t) { return insert_scan(t, given); }).id;
-  const ScanRecord scan = found(store, id);
+  const ScanRecord scan = found_scan(store, id);
   CHECK(scan.captured_at == given.captured_at);
   CHECK(scan.received_at == given.received_at);
   CHECK(scan.points == 1234);
@@ -91,8 +91,8 @@ TEST_CASE_FIXTURE(StoreFixture, "a note and a pin can be set one without the oth
   note.note = "look";
   store.write([&](Transaction& t) { edit_scan(t, scan.id, pin); });
   store.write([&](Transaction& t) { edit_scan(t, scan.id, note); });
-  CHECK(found(store, scan.id).pinned);
-  CHECK(found(store, scan.id).note == "look");
+  CHECK(found_scan(store, scan.id).pinned);
+  CHECK(found_scan(store, scan.id).note == "look");
 }
 
 TEST_CASE_FIXTURE(StoreFixture,
