@@ -25,6 +25,19 @@ void check(const Thresholds& thresholds) {
   }
 }
 
+template <class AskBlock, class Result>
+void ask_in_blocks(AskBlock ask_a_block, const PriorIndex& prior, const PointCloud& points,
+                   std::span<const std::uint8_t> valid, const Pose& prior_from_points, const Thresholds& thresholds,
+                   Result* results) {
+  const PreparedPrior prepared(prior.impl(), thresholds);
+  const RigidMotion motion(prior_from_points);
+  constexpr std::size_t kGrain = 4096;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kGrain), [&](const auto& block) {
+    ask_a_block(prepared, planes_of(points).subspan(block.begin(), block.size()), valid.data() + block.begin(), motion,
+                results + block.begin());
+  });
+}
+
 }  // namespace
 
 void ask(const PriorIndex& prior, const PointCloud& points, std::span<const std::uint8_t> valid,
@@ -34,13 +47,17 @@ void ask(const PriorIndex& prior, const PointCloud& points, std::span<const std:
     std::fill(answers.begin(), answers.end(), Answer::unseen);
     return;
   }
-  const PreparedPrior prepared(prior.impl(), thresholds);
-  const RigidMotion motion(prior_from_points);
-  constexpr std::size_t kGrain = 4096;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kGrain), [&](const auto& block) {
-    ask_block(prepared, planes_of(points).subspan(block.begin(), block.size()), valid.data() + block.begin(), motion,
-              answers.data() + block.begin());
-  });
+  ask_in_blocks(ask_block, prior, points, valid, prior_from_points, thresholds, answers.data());
+}
+
+void find_free(const PriorIndex& prior, const PointCloud& points, std::span<const std::uint8_t> valid,
+               const Pose& prior_from_points, const Thresholds& thresholds, std::span<std::uint8_t> free) {
+  check(thresholds);
+  if (prior.size() == 0) {
+    std::fill(free.begin(), free.end(), std::uint8_t{0});
+    return;
+  }
+  ask_in_blocks(find_free_in_block, prior, points, valid, prior_from_points, thresholds, free.data());
 }
 
 void find_near_returns(const PriorIndex& prior, const PointCloud& points, const Pose& prior_from_points,

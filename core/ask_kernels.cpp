@@ -20,14 +20,47 @@
 HWY_BEFORE_NAMESPACE();
 namespace raywatch::HWY_NAMESPACE {
 
-/// Which points the bounds of the cell in a direction support.
-FloatMask supported_by_cell(const PreparedPrior& prior, const RangeBand& band, const DirectionGridView& grid,
-                            Floats azimuth, Floats elevation) {
-  const FloatTag d;
+/// The whole answer is wanted. A cell inside of the cone that has a bound in the band settles it.
+struct WantAnswer {
+  using Result = Answer;
+  static constexpr Answer kNothing = Answer::unseen, kSettled = Answer::supported;
+
+  static FloatMask settled(const PriorIndex::Impl& index, const RangeBand& band, Ints cell) {
+    const FloatTag d;
+    return band.supports(hn::GatherIndex(d, index.least_m.data(), cell),
+                         hn::GatherIndex(d, index.greatest_m.data(), cell));
+  }
+  static std::optional<Answer> look(const ConeWindow& window, Remains& remains) { return window.look(remains); }
+  static Answer inquire(const Inquiry& inquiry, const std::array<double, 3>& point_m, const Direction& direction,
+                        const Remains& remains) {
+    return inquiry.answer(point_m, direction, remains);
+  }
+};
+
+/// Only whether the answer is free is wanted. A cell inside with a return that is not farther denies it, whatever else
+/// the cone holds: most points that are hidden, or on slanted ground, end there.
+struct WantFree {
+  using Result = std::uint8_t;
+  static constexpr std::uint8_t kNothing = 0, kSettled = 0;
+
+  static FloatMask settled(const PriorIndex::Impl& index, const RangeBand& band, Ints cell) {
+    return band.denies_free(hn::GatherIndex(FloatTag(), index.least_m.data(), cell));
+  }
+  static std::optional<std::uint8_t> look(const ConeWindow& window, Remains& remains) {
+    return window.look_whether_free(remains);
+  }
+  static std::uint8_t inquire(const Inquiry& inquiry, const std::array<double, 3>& point_m, const Direction& direction,
+                              const Remains& remains) {
+    return inquiry.is_free(point_m, direction, remains);
+  }
+};
+
+/// Which points the bounds of the cell in a direction settle.
+template <class Want>
+FloatMask settled_by_cell(const PreparedPrior& prior, const RangeBand& band, const DirectionGridView& grid,
+                          Floats azimuth, Floats elevation) {
   const CellLookup lookup = cells_of(grid, azimuth, elevation);
-  const Floats least = hn::GatherIndex(d, prior.index.least_m.data(), lookup.cell);
-  const Floats greatest = hn::GatherIndex(d, prior.index.greatest_m.data(), lookup.cell);
-  return hn::And(band.supports(least, greatest), lookup.in_band);
+  return hn::And(Want::settled(prior.index, band, lookup.cell), lookup.in_band);
 }
 
 /// The lanes among the first `count` that `valid` holds for.
@@ -43,8 +76,9 @@ FloatMask valid_lanes(const std::uint8_t* valid, std::size_t count) {
 }
 
 /// The first pass over a block: answers what the points' own cells decide, and collects the others.
+template <class Want>
 void ask_own_cells(const PreparedPrior& prior, const PointPlanes& points, const std::uint8_t* valid,
-                   const RigidMotion& motion, Answer* answers, OpenPoints& open) {
+                   const RigidMotion& motion, typename Want::Result* results, OpenPoints& open) {
   const FloatTag d;
   const IntTag di;
   const hn::Rebind<std::uint8_t, FloatTag> bytes;
@@ -54,22 +88,22 @@ void ask_own_cells(const PreparedPrior& prior, const PointPlanes& points, const 
     const std::size_t count = std::min(lanes, points.size - i);
     const FloatMask is_valid = valid_lanes(valid + i, count);
     if (hn::AllFalse(d, is_valid)) {
-      std::fill_n(answers + i, count, Answer::unseen);
+      std::fill_n(results + i, count, Want::kNothing);
       continue;
     }
     const Coordinates p = moved(motion, points, i, count);
     const Spherical s = spherical_of(p);
-    FloatMask supported = hn::FirstN(d, 0);
+    FloatMask settled = hn::FirstN(d, 0);
     if (prior.own_cell_is_inside) {
       const RangeBand band(s.range, prior.thresholds.range_m);
-      supported = hn::And(is_valid, supported_by_cell(prior, band, grid, s.azimuth, s.elevation));
+      settled = hn::And(is_valid, settled_by_cell<Want>(prior, band, grid, s.azimuth, s.elevation));
     }
-    constexpr auto kUnseen = static_cast<int>(Answer::unseen), kSupported = static_cast<int>(Answer::supported);
-    const Ints answer = hn::IfThenElse(hn::RebindMask(di, supported), hn::Set(di, kSupported), hn::Set(di, kUnseen));
+    constexpr auto kNothing = static_cast<int>(Want::kNothing), kSettled = static_cast<int>(Want::kSettled);
+    const Ints result = hn::IfThenElse(hn::RebindMask(di, settled), hn::Set(di, kSettled), hn::Set(di, kNothing));
     std::uint8_t stored[kMostLanes];
-    hn::StoreU(hn::DemoteTo(bytes, answer), bytes, stored);
-    std::memcpy(answers + i, stored, count);
-    const FloatMask is_open = hn::AndNot(supported, is_valid);
+    hn::StoreU(hn::DemoteTo(bytes, result), bytes, stored);
+    std::memcpy(results + i, stored, count);
+    const FloatMask is_open = hn::AndNot(settled, is_valid);
     if (hn::AllFalse(d, is_open)) continue;
     const Floats horizontal = hn::Sqrt(hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y)));
     const Floats cosine = hn::Div(horizontal, hn::Max(s.range, constant(1e-37f)));
@@ -79,7 +113,8 @@ void ask_own_cells(const PreparedPrior& prior, const PointPlanes& points, const 
 }
 
 /// The same for what is open, with the cells one row up and down.
-void ask_cells_above_and_below(const PreparedPrior& prior, Answer* answers, OpenPoints& open) {
+template <class Want>
+void ask_cells_above_and_below(const PreparedPrior& prior, typename Want::Result* results, OpenPoints& open) {
   if (!prior.cells_above_and_below_are_inside) return;
   const FloatTag d;
   const DirectionGridView grid = prior.index.grid.view();
@@ -91,20 +126,21 @@ void ask_cells_above_and_below(const PreparedPrior& prior, Answer* answers, Open
     const Floats cosine = hn::LoadU(d, open.cosine + k);
     const Ints place = hn::LoadU(IntTag(), open.place + k);
     const RangeBand band(s.range, prior.thresholds.range_m);
-    FloatMask supported = hn::FirstN(d, 0);
+    FloatMask settled = hn::FirstN(d, 0);
     for (const float step : {grid.cell_rad, -grid.cell_rad}) {
       const Floats elevation = hn::Add(s.elevation, constant(step));
-      supported = hn::Or(supported, supported_by_cell(prior, band, grid, s.azimuth, elevation));
+      settled = hn::Or(settled, settled_by_cell<Want>(prior, band, grid, s.azimuth, elevation));
     }
-    for (std::uint32_t bits = bits_of(hn::And(supported, present)); bits != 0; bits &= bits - 1) {
-      answers[open.place[k + static_cast<std::size_t>(std::countr_zero(bits))]] = Answer::supported;
+    for (std::uint32_t bits = bits_of(hn::And(settled, present)); bits != 0; bits &= bits - 1) {
+      results[open.place[k + static_cast<std::size_t>(std::countr_zero(bits))]] = Want::kSettled;
     }
-    open.append(place, s, cosine, hn::AndNot(supported, present));
+    open.append(place, s, cosine, hn::AndNot(settled, present));
   }
 }
 
-void ask_block_simd(const PreparedPrior& prior, const PointPlanes& points, const std::uint8_t* valid,
-                    const RigidMotion& motion, Answer* answers) {
+template <class Want>
+void ask_block_for(const PreparedPrior& prior, const PointPlanes& points, const std::uint8_t* valid,
+                   const RigidMotion& motion, typename Want::Result* results) {
   OpenPoints open;
   ConeSpans spans(prior);
   const Inquiry inquiry(prior);
@@ -112,8 +148,8 @@ void ask_block_simd(const PreparedPrior& prior, const PointPlanes& points, const
     const std::size_t count = std::min(OpenPoints::kMost, points.size - begin);
     const PointPlanes block = points.subspan(begin, count);
     open.size = 0;
-    ask_own_cells(prior, block, valid + begin, motion, answers + begin, open);
-    ask_cells_above_and_below(prior, answers + begin, open);
+    ask_own_cells<Want>(prior, block, valid + begin, motion, results + begin, open);
+    ask_cells_above_and_below<Want>(prior, results + begin, open);
     for (std::size_t k = 0; k < open.size; k += hn::Lanes(FloatTag())) {
       const std::size_t lanes = std::min(hn::Lanes(FloatTag()), open.size - k);
       spans.find(hn::LoadU(FloatTag(), open.azimuth_rad + k), hn::LoadU(FloatTag(), open.elevation_rad + k),
@@ -121,14 +157,25 @@ void ask_block_simd(const PreparedPrior& prior, const PointPlanes& points, const
       for (std::size_t lane = 0; lane < lanes; ++lane) {
         const auto i = static_cast<std::size_t>(open.place[k + lane]);
         Remains remains;
-        ConeWindow window(prior.index, spans, lane, open.range_m[k + lane], prior.thresholds.range_m);
-        const std::optional<Answer> answer = window.look(remains);
-        answers[begin + i] = answer ? *answer
-                                    : inquiry(motion.apply(block.x_m[i], block.y_m[i], block.z_m[i]),
-                                              {open.azimuth_rad[k + lane], open.elevation_rad[k + lane]}, remains);
+        const ConeWindow window(prior.index, spans, lane, open.range_m[k + lane], prior.thresholds.range_m);
+        const std::optional<typename Want::Result> result = Want::look(window, remains);
+        results[begin + i] = result
+                                 ? *result
+                                 : Want::inquire(inquiry, motion.apply(block.x_m[i], block.y_m[i], block.z_m[i]),
+                                                 {open.azimuth_rad[k + lane], open.elevation_rad[k + lane]}, remains);
       }
     }
   }
+}
+
+void ask_block_simd(const PreparedPrior& prior, const PointPlanes& points, const std::uint8_t* valid,
+                    const RigidMotion& motion, Answer* answers) {
+  ask_block_for<WantAnswer>(prior, points, valid, motion, answers);
+}
+
+void find_free_in_block_simd(const PreparedPrior& prior, const PointPlanes& points, const std::uint8_t* valid,
+                             const RigidMotion& motion, std::uint8_t* free) {
+  ask_block_for<WantFree>(prior, points, valid, motion, free);
 }
 
 }  // namespace raywatch::HWY_NAMESPACE
@@ -138,6 +185,7 @@ HWY_AFTER_NAMESPACE();
 namespace raywatch {
 
 HWY_EXPORT(ask_block_simd);
+HWY_EXPORT(find_free_in_block_simd);
 
 RigidMotion::RigidMotion(const Pose& to_from) {
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation, 3, 3) = to_from.orientation.toRotationMatrix();
@@ -154,6 +202,11 @@ PreparedPrior::PreparedPrior(const PriorIndex::Impl& asked, const Thresholds& ho
 void ask_block(const PreparedPrior& prior, const PointPlanes& points, const std::uint8_t* valid,
                const RigidMotion& prior_from_points, Answer* answers) {
   HWY_DYNAMIC_DISPATCH(ask_block_simd)(prior, points, valid, prior_from_points, answers);
+}
+
+void find_free_in_block(const PreparedPrior& prior, const PointPlanes& points, const std::uint8_t* valid,
+                        const RigidMotion& prior_from_points, std::uint8_t* free) {
+  HWY_DYNAMIC_DISPATCH(find_free_in_block_simd)(prior, points, valid, prior_from_points, free);
 }
 
 }  // namespace raywatch

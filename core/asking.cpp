@@ -51,6 +51,17 @@ Answers Asking::ask_all(const ScanView& asked, const ScanView& view, std::span<c
   return answers;
 }
 
+std::vector<std::uint32_t> Asking::find_free(const ScanView& asked, const ScanView& view,
+                                             std::span<const std::uint8_t> valid) const {
+  std::vector<std::uint8_t> free(view.points.size());
+  raywatch::find_free(asked.index, view.points, valid, asked_from_view(asked, view), thresholds(asked), free);
+  std::vector<std::uint32_t> places;
+  for (std::uint32_t i = 0; i < free.size(); ++i) {
+    if (free[i]) places.push_back(i);
+  }
+  return places;
+}
+
 Answers Asking::ask_at(const ScanView& asked, const ScanView& view, std::span<const std::uint32_t> places) const {
   const PointCloud points = points_at(view.points, places);
   Answers answers(places.size());

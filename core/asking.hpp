@@ -31,6 +31,9 @@ class Asking {
 
   /// What `asked` answers about all points of `view`; about those that are not valid: unseen.
   Answers ask_all(const ScanView& asked, const ScanView& view, std::span<const std::uint8_t> valid) const;
+  /// The places of those points that it answers free about: the same, faster, where no other answer matters.
+  std::vector<std::uint32_t> find_free(const ScanView& asked, const ScanView& view,
+                                       std::span<const std::uint8_t> valid) const;
   /// What it answers about some, weighed.
   Answers ask_at(const ScanView& asked, const ScanView& view, std::span<const std::uint32_t> places) const;
   /// Looks more closely at what `asked` answered about some points of `view`. Nothing when evidence is not weighed.

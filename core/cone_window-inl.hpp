@@ -56,9 +56,13 @@ struct RangeBand {
     far = hn::Add(hn::Add(range, threshold), rounding);
   }
 
+  /// Bounds of a cell that lie in the band: a return does.
   FloatMask supports(Floats least, Floats greatest) const {
     return hn::Or(hn::Lt(hn::Abs(hn::Sub(least, rho)), within), hn::Lt(hn::Abs(hn::Sub(greatest, rho)), within));
   }
+
+  /// Least bounds of a cell that deny that the point is free: a return is not at rho + T_r or beyond.
+  FloatMask denies_free(Floats least) const { return hn::Lt(hn::Sub(least, rho), within); }
 
   Floats rho, within, near, far;
 };
@@ -84,13 +88,13 @@ class ConeWindow {
       : index_(index), spans_(spans), lane_(lane), band_(constant(range_m), threshold_m) {}
 
   /// The answer, if bounds alone decide it; else none, and `remains` says what is left to be looked at.
-  std::optional<Answer> look(Remains& remains) {
+  std::optional<Answer> look(Remains& remains) const {
     remains.count = 0;
     remains.is_complete = spans_.fits(lane_);
     if (!remains.is_complete) return std::nullopt;
     Bounds all;
     look_at_all(all);
-    if (all.support(band_)) return Answer::supported;
+    if (all.settle(band_)) return Answer::supported;
     const bool is_nearer = has(hn::Le(all.inside_least, band_.near));
     const bool is_farther = has(hn::Ge(all.inside_greatest, band_.far));
     const bool any = is_nearer || is_farther || has(hn::Le(all.inside_least, all.inside_greatest));
@@ -101,13 +105,31 @@ class ConeWindow {
       if (!any) return Answer::unseen;
       if (is_nearer) return is_farther ? Answer::ambiguous : Answer::occluded;
     }
-    list_cells(!is_nearer, !is_farther, remains);
+    list_cells_of_interest(!is_nearer, !is_farther, remains);
     if (is_nearer) {
       if (remains.count > 0) return std::nullopt;
       return is_farther ? Answer::ambiguous : Answer::occluded;
     }
     remains.is_surrounded = is_surrounded();
     if (!borders_matter && remains.is_surrounded) return Answer::free;
+    return std::nullopt;
+  }
+
+  /// Whether the point is free, if bounds alone decide that; else none, and `remains` says what is left.
+  std::optional<bool> look_whether_free(Remains& remains) const {
+    remains.count = 0;
+    remains.is_complete = spans_.fits(lane_);
+    if (!remains.is_complete) return std::nullopt;
+    LeastBounds all;
+    look_at_all(all);
+    if (all.settle(band_) || !has(hn::Lt(all.least, constant(std::numeric_limits<float>::infinity())))) return false;
+    const bool borders_matter = has(hn::Lt(all.least, band_.far));
+    if (borders_matter) {
+      list_cells(remains, [&](const Cells& cells) HWY_ATTR { return bits_of(hn::Lt(cells.least, band_.far)); });
+    }
+    remains.evidence = {};
+    remains.is_surrounded = is_surrounded();
+    if (!borders_matter && remains.is_surrounded) return true;
     return std::nullopt;
   }
 
@@ -152,7 +174,7 @@ class ConeWindow {
       greatest = hn::Max(greatest, cells.greatest);
       open = hn::Or(open, hn::And(hn::Lt(cells.least, band.far), hn::Gt(cells.greatest, band.near)));
     }
-    bool support(const RangeBand& band) const { return has(hn::Lt(off, band.within)); }
+    bool settle(const RangeBand& band) const { return has(hn::Lt(off, band.within)); }
     bool may_lie_in_band() const { return has(open); }
 
     Floats least, greatest, inside_least, inside_greatest;
@@ -160,8 +182,22 @@ class ConeWindow {
     FloatMask open;  ///< whose returns may lie in the band
   };
 
-  /// Looks at the middle rows first, where most support is.
-  HWY_INLINE void look_at_all(Bounds& all) const {
+  /// What of them matters when only free is asked for.
+  struct LeastBounds {
+    LeastBounds() { least = inside_least = constant(std::numeric_limits<float>::infinity()); }
+
+    HWY_INLINE void add(const Cells& cells, const RangeBand&) {
+      inside_least = hn::IfThenElse(mask_of(cells.inside), hn::Min(inside_least, cells.least), inside_least);
+      least = hn::Min(least, cells.least);
+    }
+    bool settle(const RangeBand& band) const { return has(band.denies_free(inside_least)); }
+
+    Floats least, inside_least;
+  };
+
+  /// Looks at the middle rows first, where most is settled.
+  template <class SomeBounds>
+  HWY_INLINE void look_at_all(SomeBounds& all) const {
     if (spans_.are_paired()) {
       look_at_lines((spans_.rows() + 1) / 2, all,
                     [&](std::size_t pair) HWY_ATTR { all.add(pair_of_rows(pair), band_); });
@@ -172,11 +208,11 @@ class ConeWindow {
     }
   }
 
-  template <class Look>
-  HWY_INLINE void look_at_lines(std::size_t lines, const Bounds& all, Look look) const {
+  template <class SomeBounds, class Look>
+  HWY_INLINE void look_at_lines(std::size_t lines, const SomeBounds& all, Look look) const {
     const std::size_t begin = lines / 3, end = lines - lines / 3;
     for (std::size_t line = begin; line < end; ++line) look(line);
-    if (all.support(band_)) return;
+    if (all.settle(band_)) return;
     for (std::size_t line = 0; line < begin; ++line) look(line);
     for (std::size_t line = end; line < lines; ++line) look(line);
   }
@@ -221,15 +257,27 @@ class ConeWindow {
     return cells;
   }
 
-  /// Lists the cells whose returns can make a difference.
-  HWY_NOINLINE void list_cells(bool with_nearer, bool with_farther, Remains& remains) const {
-    for_each_vector([&](const Cells& cells) HWY_ATTR {
+  /// Lists the cells whose returns can make a difference to an answer.
+  HWY_NOINLINE void list_cells_of_interest(bool with_nearer, bool with_farther, Remains& remains) const {
+    list_cells(remains, [&](const Cells& cells) HWY_ATTR {
       std::uint32_t listed = bits_of(hn::And(hn::Lt(cells.least, band_.far), hn::Gt(cells.greatest, band_.near)));
       if (with_nearer) listed |= bits_of(hn::Le(cells.least, band_.near)) & ~cells.inside;
       if (with_farther) listed |= bits_of(hn::Ge(cells.greatest, band_.far)) & ~cells.inside;
+      if (with_nearer || with_farther) return listed;
+      std::uint32_t open = listed;
       for (std::uint32_t bits = listed; bits != 0; bits &= bits - 1) {
-        const std::uint32_t cell = cells.cell(std::countr_zero(bits));
-        if (with_nearer || with_farther || !is_settled(cell)) remains.add(cell);
+        if (is_settled(cells.cell(std::countr_zero(bits)))) open &= ~(bits & (~bits + 1));
+      }
+      return open;
+    });
+  }
+
+  /// Lists the cells that `choose(Cells)` names, as bits.
+  template <class Choose>
+  HWY_INLINE void list_cells(Remains& remains, Choose choose) const {
+    for_each_vector([&](const Cells& cells) HWY_ATTR {
+      for (std::uint32_t bits = choose(cells); bits != 0; bits &= bits - 1) {
+        remains.add(cells.cell(std::countr_zero(bits)));
       }
     });
   }

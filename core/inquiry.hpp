@@ -31,20 +31,39 @@ class Inquiry {
  public:
   explicit Inquiry(const PreparedPrior& prior) : prior_(prior), thresholds_(prior.thresholds) {}
 
-  Answer operator()(const std::array<double, 3>& point_m, const Direction& direction, const Remains& remains) const {
+  Answer answer(const std::array<double, 3>& point_m, const Direction& direction, const Remains& remains) const {
     const Question question(point_m[0], point_m[1], point_m[2], thresholds_);
     if (!(question.range_m() > 0.0)) return Answer::unseen;
-    if (!remains.is_complete) return ask_every_cell(question, direction);
-    Evidence evidence = remains.evidence;
-    for (std::uint32_t k = 0; k < remains.count && !evidence.supported; ++k) {
-      look_at_cell(question, remains.cells[k], evidence);
-    }
+    const auto is_enough = [](const Evidence& evidence) { return evidence.supported; };
+    if (!remains.is_complete) return ask_every_cell(question, direction, is_enough);
+    const Evidence evidence = look_at_cells(question, remains, is_enough);
     const bool in_front = evidence.any && !evidence.not_farther;
     if (!in_front || evidence.surrounded()) return evidence.answer();
-    return remains.is_surrounded ? Answer::free : ask_every_cell(question, direction);
+    return remains.is_surrounded ? Answer::free : ask_every_cell(question, direction, is_enough);
+  }
+
+  /// Whether the answer is free, which any return that is not farther denies.
+  bool is_free(const std::array<double, 3>& point_m, const Direction& direction, const Remains& remains) const {
+    const Question question(point_m[0], point_m[1], point_m[2], thresholds_);
+    if (!(question.range_m() > 0.0)) return false;
+    const auto is_enough = [](const Evidence& evidence) { return evidence.not_farther; };
+    if (remains.is_complete) {
+      if (look_at_cells(question, remains, is_enough).not_farther) return false;
+      if (remains.is_surrounded) return true;
+    }
+    return ask_every_cell(question, direction, is_enough) == Answer::free;
   }
 
  private:
+  template <class IsEnough>
+  Evidence look_at_cells(const Question& question, const Remains& remains, IsEnough is_enough) const {
+    Evidence evidence = remains.evidence;
+    for (std::uint32_t k = 0; k < remains.count && !is_enough(evidence); ++k) {
+      look_at_cell(question, remains.cells[k], evidence);
+    }
+    return evidence;
+  }
+
   void look_at_cell(const Question& question, std::uint32_t cell, Evidence& evidence) const {
     for (std::uint32_t i = prior_.index.first[cell]; i < prior_.index.first[cell + 1]; ++i) {
       const Return& r = prior_.index.returns[i];
@@ -52,11 +71,12 @@ class Inquiry {
     }
   }
 
-  Answer ask_every_cell(const Question& question, const Direction& direction) const {
+  template <class IsEnough>
+  Answer ask_every_cell(const Question& question, const Direction& direction, IsEnough is_enough) const {
     Evidence evidence;
     prior_.cone.for_each_cell(prior_.index.grid, direction, [&](std::uint32_t cell, bool inside) {
       if (!adds_nothing(question, cell, inside, evidence)) look_at_cell(question, cell, evidence);
-      return !evidence.supported;
+      return !is_enough(evidence);
     });
     return evidence.answer();
   }

@@ -26,7 +26,7 @@ std::vector<std::uint32_t> places_of(const Answers& answers, Predicate predicate
 
 /// What was found of one prior so far.
 struct PriorState {
-  Answers answers;  ///< of the scan
+  Answers answers;  ///< of the scan; only where evidence is weighed
   std::vector<Candidate> candidates;
   std::vector<ClassedPoint> seeds;
   std::vector<std::uint32_t> sources;  ///< of the prior's returns; only if anything grows
@@ -54,25 +54,31 @@ class PriorSearch {
 
  private:
   void examine(std::uint32_t p) {
-    const ScanView& prior = priors_[p];
-    PriorState& state = states_[p];
-    state.answers = asking_.ask_all(scan_, prior, valid_points(prior));
-    asking_.look_closely(scan_, prior, places_of(state.answers, is_undecided), state.answers);
-    const std::vector<std::uint32_t> free =
-        places_of(state.answers, [](Answer answer) { return answer == Answer::free; });
+    const std::vector<std::uint32_t> free = free_points(p);
     const bool is_union = parameters_.grouping == Grouping::union_;
     const std::vector<std::uint8_t> refuted =
         is_union ? std::vector<std::uint8_t>(free.size(), 0) : refuted_at(p, free);
     for (std::size_t k = 0; k < free.size(); ++k) {
-      state.candidates.push_back({free[k], class_of_prior_point(epochs_[p]), refuted[k] != 0});
+      states_[p].candidates.push_back({free[k], class_of_prior_point(epochs_[p]), refuted[k] != 0});
     }
+  }
+
+  /// The points of prior `p` that are free in the scan. Only where evidence is weighed do other answers matter.
+  std::vector<std::uint32_t> free_points(std::uint32_t p) {
+    const ScanView& prior = priors_[p];
+    const std::vector<std::uint8_t> valid = valid_points(prior);
+    if (!asking_.weighs()) return asking_.find_free(scan_, prior, valid);
+    Answers& answers = states_[p].answers;
+    answers = asking_.ask_all(scan_, prior, valid);
+    asking_.look_closely(scan_, prior, places_of(answers, is_undecided), answers);
+    return places_of(answers, [](Answer answer) { return answer == Answer::free; });
   }
 
   /// All priors together, as one may confirm what another shows.
   void judge() {
+    const bool is_one_of_several = priors_.size() > 1;
     std::vector<std::vector<JudgedCluster>> clusters;
     for (std::size_t p = 0; p < priors_.size(); ++p) {
-      const bool is_one_of_several = priors_.size() > 1;
       clusters.push_back(
           judge_clusters(priors_[p], states_[p].candidates, {&scan_, 1}, is_one_of_several, parameters_));
     }

@@ -56,6 +56,11 @@ class PriorIndex {
 void ask(const PriorIndex& prior, const PointCloud& points, std::span<const std::uint8_t> valid,
          const Pose& prior_from_points, const Thresholds& thresholds, std::span<Answer> answers);
 
+/// For each point whether `ask` would answer free: 1 if so, else 0.
+/// @throws InvalidInput when a threshold is out of its range.
+void find_free(const PriorIndex& prior, const PointCloud& points, std::span<const std::uint8_t> valid,
+               const Pose& prior_from_points, const Thresholds& thresholds, std::span<std::uint8_t> free);
+
 /// For each point whether a return of `prior` lies nearer to it than `distance_m` (> 0), in any direction.
 void find_near_returns(const PriorIndex& prior, const PointCloud& points, const Pose& prior_from_points,
                        double distance_m, std::span<std::uint8_t> near);

@@ -63,6 +63,21 @@ void ask_prior(benchmark::State& state, SceneSize size, bool same_pose) {
   }
 }
 
+/// Only whether points are free: the question of the published method.
+void find_free_points(benchmark::State& state, SceneSize size, bool same_pose) {
+  const BenchScene& s = scene(size);
+  const BenchScan& prior = same_pose ? s.same_pose : s.other_pose;
+  const Pose prior_from_scan = prior.world_from_sensor.inverse() * s.scan.world_from_sensor;
+  std::vector<std::uint8_t> valid(s.scan.points.size()), free(s.scan.points.size());
+  find_usable(planes_of(s.scan.points), {}, valid.data());
+  tbb::task_arena arena(static_cast<int>(state.range(0)));
+  for (auto _ : state) {
+    arena.execute([&] { find_free(prior.index, s.scan.points, valid, prior_from_scan, s.thresholds, free); });
+    benchmark::ClobberMemory();
+  }
+  set_points(state, free.size());
+}
+
 /// How the cost of asking grows with T_a, given as a multiple of the spacing of the shots (x 10).
 void ask_at_angle(benchmark::State& state, SceneSize size, bool same_pose) {
   const BenchScene& s = scene(size);
@@ -117,6 +132,8 @@ void register_all() {
     add("index", [s](benchmark::State& state) { build_index(state, s); });
     add("ask_same_pose", [s](benchmark::State& state) { ask_prior(state, s, true); });
     add("ask_other_pose", [s](benchmark::State& state) { ask_prior(state, s, false); });
+    add("find_free_same_pose", [s](benchmark::State& state) { find_free_points(state, s, true); });
+    add("find_free_other_pose", [s](benchmark::State& state) { find_free_points(state, s, false); });
     for (const auto& [pose, same] : {std::pair{"same_pose", true}, std::pair{"other_pose", false}}) {
       const auto ask_angle = [s, same = same](benchmark::State& state) { ask_at_angle(state, s, same); };
       auto* angles = benchmark::RegisterBenchmark(

@@ -78,8 +78,10 @@ void hold_against_definition(const Panorama& panorama, const Thresholds& thresho
   const PointCloud points =
       questions(take(panorama, Pose{}, random, 0.3 * panorama.azimuth_step), prior_from_points, random);
   const PriorIndex index = PriorIndex::build(prior, {});
+  const std::vector<std::uint8_t> valid(points.size(), 1);
   std::vector<Answer> answers(points.size());
-  ask(index, points, std::vector<std::uint8_t>(points.size(), 1), prior_from_points, thresholds, answers);
+  ask(index, points, valid, prior_from_points, thresholds, answers);
+  RC_ASSERT(testing::free_points(index, points, valid, prior_from_points, thresholds) == testing::are_free(answers));
   const std::vector<Eigen::Vector3d> returns = usable_returns(prior, {});
   const Eigen::Matrix3d rotation = prior_from_points.orientation.toRotationMatrix();
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -14,7 +14,9 @@
 namespace raywatch {
 namespace {
 
+using testing::are_free;
 using testing::brute_force_answer;
+using testing::free_points;
 using testing::usable_returns;
 
 constexpr double kPi = std::numbers::pi;
@@ -187,6 +189,7 @@ TEST_CASE(
     const std::vector<std::uint8_t> valid(scene.points.size(), 1);
     std::vector<Answer> answers(scene.points.size());
     ask(index, scene.points, valid, Pose{}, scene.thresholds, answers);
+    RC_ASSERT(free_points(index, scene.points, valid, Pose{}, scene.thresholds) == are_free(answers));
     const auto returns = usable_returns(scene.prior, {});
     for (std::size_t i = 0; i < answers.size(); ++i) {
       const auto expected = brute_force_answer(returns, scene.points[i].cast<double>(), scene.thresholds);
@@ -201,6 +204,19 @@ TEST_CASE(
   MESSAGE(total << " questions, " << free << " free, " << differing << " answered otherwise");
   CHECK(differing <= total / 10000);
   for (const std::size_t count : seen) CHECK(count > total / 200);  // the scenes ask for every answer
+}
+
+TEST_CASE("what is only asked whether it is free gets the same answer, valid or not") {
+  const RandomScene scene = random_scene(5, 3000, 1001);
+  const PriorIndex index = PriorIndex::build(scene.prior, {});
+  std::vector<std::uint8_t> valid(scene.points.size(), 1);
+  for (std::size_t i = 0; i < 700; ++i) valid[i] = i % 3 == 0 || (i > 100 && i < 200);
+  std::vector<Answer> answers(scene.points.size());
+  ask(index, scene.points, valid, Pose{}, scene.thresholds, answers);
+  CHECK(std::count(answers.begin(), answers.end(), Answer::free) > 20);
+  CHECK(free_points(index, scene.points, valid, Pose{}, scene.thresholds) == are_free(answers));
+  const std::vector<std::uint8_t> none(valid.size(), 0);
+  CHECK(free_points(PriorIndex::build({}, {}), scene.points, valid, Pose{}, scene.thresholds) == none);
 }
 
 TEST_CASE("near returns are found in every direction, also across the seam and behind the point") {

@@ -64,6 +64,20 @@ BruteForceAnswer brute_force_answer(const std::vector<Eigen::Vector3d>& prior_re
   return result;
 }
 
+std::vector<std::uint8_t> are_free(std::span<const Answer> answers) {
+  std::vector<std::uint8_t> free;
+  for (const Answer answer : answers) free.push_back(answer == Answer::free);
+  return free;
+}
+
+std::vector<std::uint8_t> free_points(const PriorIndex& prior, const PointCloud& points,
+                                      std::span<const std::uint8_t> valid, const Pose& prior_from_points,
+                                      const Thresholds& thresholds) {
+  std::vector<std::uint8_t> free(points.size());
+  find_free(prior, points, valid, prior_from_points, thresholds, free);
+  return free;
+}
+
 std::vector<Eigen::Vector3d> usable_returns(const PointCloud& cloud, const UsableRange& usable) {
   std::vector<Eigen::Vector3d> returns;
   for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/prior_index.hpp"
@@ -18,6 +20,14 @@ struct BruteForceAnswer {
 
 BruteForceAnswer brute_force_answer(const std::vector<Eigen::Vector3d>& prior_returns_m, const Eigen::Vector3d& point_m,
                                     const Thresholds& thresholds);
+
+/// 1 for each answer that is free, else 0.
+std::vector<std::uint8_t> are_free(std::span<const Answer> answers);
+
+/// `find_free` with a result of its own.
+std::vector<std::uint8_t> free_points(const PriorIndex& prior, const PointCloud& points,
+                                      std::span<const std::uint8_t> valid, const Pose& prior_from_points,
+                                      const Thresholds& thresholds);
 
 /// The usable returns of a cloud in double.
 std::vector<Eigen::Vector3d> usable_returns(const PointCloud& cloud, const UsableRange& usable);
