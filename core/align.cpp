@@ -12,6 +12,7 @@
 #include "core/align_sample.hpp"
 #include "core/names.hpp"
 #include "core/plane_patch.hpp"
+#include "core/tukey.hpp"
 
 namespace raywatch {
 namespace {
@@ -29,8 +30,6 @@ constexpr double kStepEnd_rad = 2e-6;
 /// half of it in each further iteration, until the noise decides.
 constexpr double kFirstBlur_m = 0.1;
 constexpr double kLastBlur_m = 0.0005;
-/// Distances beyond this many deviations have no weight (Tukey).
-constexpr double kTukeyDistance = 4.7;
 /// Surfaces farther apart than this many deviations do not agree.
 constexpr double kAgree = 3.5;
 /// The distances of a good fit may spread by this much more than the noise says.
@@ -60,11 +59,6 @@ Eigen::Quaterniond turn_by(const Eigen::Vector3d& turn_rad) {
   const double angle_rad = turn_rad.norm();
   if (angle_rad == 0.0) return Eigen::Quaterniond::Identity();
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, turn_rad / angle_rad));
-}
-
-double tukey_weight(double deviations, double spread) {
-  const double u = deviations / (kTukeyDistance * spread);
-  return std::abs(u) >= 1.0 ? 0.0 : (1.0 - u * u) * (1.0 - u * u);
 }
 
 /// One scan's fitting; its steps in the order in which `run` goes through them.

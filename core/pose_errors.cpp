@@ -4,19 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tukey.hpp"
+
 namespace raywatch {
 namespace {
 
 constexpr std::size_t kMostCells = 20000;
 /// Heights are not known better than this, whatever their returns say: rounding, and what the ground itself does.
 constexpr double kLeastSigma_m = 0.002;
-/// Rises beyond this many deviations have no weight (Tukey).
-constexpr double kTukeyRise = 4.7;
-
-double tukey_weight(double deviations) {
-  const double u = deviations / kTukeyRise;
-  return std::abs(u) >= 1.0 ? 0.0 : (1.0 - u * u) * (1.0 - u * u);
-}
 
 }  // namespace
 

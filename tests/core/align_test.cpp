@@ -146,7 +146,7 @@ TEST_CASE("a pose that is off by far more than any error is found or refused, ne
   const Pose truth = scan.scan.true_world_from_sensor;
   CHECK(aligned(scan, shifted(truth, {0.25, 0.1, 0.0}), reference).state == RegistrationState::moved);
   CHECK(aligned(scan, turned(truth, 1.0, Eigen::Vector3d::UnitZ()), reference).state == RegistrationState::bad);
-  rc::check([&] {
+  CHECK(rc::check([&] {
     const auto yaw_rad = *rc::gen::map(rc::gen::inRange(-314, 315), [](int n) { return n / 100.0; });
     const auto x_m = 0.1 * *rc::gen::inRange(-30, 31), y_m = 0.1 * *rc::gen::inRange(-30, 31);
     const Pose said = turned(shifted(truth, {x_m, y_m, 0.0}), yaw_rad, Eigen::Vector3d::UnitZ());
@@ -158,7 +158,7 @@ TEST_CASE("a pose that is off by far more than any error is found or refused, ne
       RC_ASSERT(found.correction.position_m.isZero());
       RC_ASSERT(found.correction.orientation.angularDistance(Eigen::Quaterniond::Identity()) == 0.0);
     }
-  });
+  }));
 }
 
 TEST_CASE("scans that have nothing in common are not aligned") {
@@ -243,7 +243,7 @@ TEST_CASE("a common rigid motion of the world moves the correction with it") {
   const Taken &scan = taken(Family::lab, 4), &reference = taken(Family::lab, 0);
   const Pose said = disturbed(scan.scan.true_world_from_sensor, kUsualError, 2);
   const Pose plain = aligned(scan, said, reference).correction * said;
-  rc::check([&] {
+  CHECK(rc::check([&] {
     const auto yaw_rad = *rc::gen::map(rc::gen::inRange(-314, 315), [](int n) { return n / 100.0; });
     const auto x_m = *rc::gen::inRange(-500, 501), y_m = *rc::gen::inRange(-500, 501);
     const Pose motion = turned(from(x_m, y_m), yaw_rad, Eigen::Vector3d::UnitZ());
@@ -252,7 +252,7 @@ TEST_CASE("a common rigid motion of the world moves the correction with it") {
     const Pose back = motion.inverse() * found.correction * motion * said;
     RC_ASSERT((back.position_m - plain.position_m).norm() < 0.002);
     RC_ASSERT(angle_between_rad(back, plain) < 0.02 * kDegree);
-  });
+  }));
 }
 
 TEST_CASE("two references fix what one of them leaves open") {

@@ -19,7 +19,7 @@ Taken wall() {
 
 TEST_CASE("a block of neighbouring shots is as long and as wide as it has columns and rows, and is full") {
   const Taken scan = wall();
-  rc::check([&] {
+  CHECK(rc::check([&] {
     const int columns = *rc::gen::inRange(1, 8), rows = *rc::gen::inRange(1, 8);
     std::vector<std::uint32_t> members;
     for (int c = 0; c < columns; ++c) {
@@ -29,7 +29,7 @@ TEST_CASE("a block of neighbouring shots is as long and as wide as it has column
     RC_ASSERT(std::abs(extent.length - std::max(columns, rows)) < 0.1);
     RC_ASSERT(std::abs(extent.width - std::min(columns, rows)) < 0.1);
     RC_ASSERT(std::abs(extent.filled - 1.0) < 0.05);
-  });
+  }));
 }
 
 TEST_CASE("of a chequered block half is filled, and a slanting line is one shot wide") {
