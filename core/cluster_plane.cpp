@@ -1,11 +1,11 @@
 #include "core/cluster_plane.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <utility>
 
 #include "core/assumed_sensor.hpp"
 #include "core/median.hpp"
+#include "core/principal_axes.hpp"
 #include "core/spread_sample.hpp"
 
 namespace raywatch {
@@ -22,19 +22,12 @@ std::optional<ClusterPlane> ClusterPlane::fit(const ScanView& view, std::span<co
   for (const std::uint32_t i : thinned(members, kMostMembers)) {
     plane.points_m.push_back(asked_from_view * view.points[i].cast<double>());
   }
-  const auto count = static_cast<double>(plane.points_m.size());
-  plane.center_m.setZero();
-  for (const Eigen::Vector3d& p : plane.points_m) plane.center_m += p / count;
-  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : plane.points_m) {
-    covariance_m2 += (p - plane.center_m) * (p - plane.center_m).transpose() / count;
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance_m2);
-  const Eigen::Vector3d variance_m2 = solver.eigenvalues().cwiseMax(0.0);
-  const double width_m = std::sqrt(12.0 * variance_m2[1]), length_m = std::sqrt(12.0 * variance_m2[2]);
-  if (variance_m2[0] > plane.thickness_m * plane.thickness_m || width_m < kLeastWidth_m) return std::nullopt;
-  plane.normal = solver.eigenvectors().col(0);
-  plane.radius_m = 0.5 * std::hypot(width_m, length_m);
+  const PrincipalAxes<3> axes = principal_axes_of<3>(plane.points_m);
+  const Eigen::Vector3d widths_m = axes.widths();
+  if (std::sqrt(axes.variances[0]) > plane.thickness_m || widths_m[1] < kLeastWidth_m) return std::nullopt;
+  plane.center_m = axes.mean;
+  plane.normal = axes.directions.col(0);
+  plane.radius_m = 0.5 * std::hypot(widths_m[1], widths_m[2]);
   return plane;
 }
 
@@ -47,12 +40,6 @@ double ClusterPlane::median_facing(const Eigen::Vector3d& sensor_m) const {
   std::vector<double> cosines;
   for (const Eigen::Vector3d& p : points_m) cosines.push_back(facing(p, sensor_m));
   return median(std::move(cosines));
-}
-
-bool ClusterPlane::is_met_edge_on() const {
-  constexpr double kEdgeOn = 0.07, kLeastBreadth_m = 0.05;
-  const double cosine = median_facing(Eigen::Vector3d::Zero());
-  return cosine < kEdgeOn && 2.0 * radius_m * cosine < kLeastBreadth_m;
 }
 
 }  // namespace raywatch

@@ -29,9 +29,6 @@ struct ClusterPlane {
   double facing(const Eigen::Vector3d& point_m, const Eigen::Vector3d& sensor_m) const;
   /// The median over the cluster.
   double median_facing(const Eigen::Vector3d& sensor_m) const;
-  /// Whether the scan that is asked meets it so nearly edge-on, as less than 5 cm of it and at less than 4 degrees,
-  /// that its rays may as well have passed beside it: the side of a cupboard, of a shelf.
-  bool is_met_edge_on() const;
 };
 
 }  // namespace raywatch

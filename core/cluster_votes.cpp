@@ -7,6 +7,7 @@
 
 #include "core/assumed_sensor.hpp"
 #include "core/cluster_rays.hpp"
+#include "core/doubts.hpp"
 #include "core/median.hpp"
 #include "core/nearest_return.hpp"
 #include "core/returns_near.hpp"
@@ -128,6 +129,13 @@ bool may_have_been_passed(const ShotExtent& extent, const ClusterVotes& votes) {
   return has_gaps(extent) || penetrated < kFew;
 }
 
+/// Whether a cluster is a piece of a fence: its own scan sees through it, and the shots beside most of its points
+/// return from elsewhere.
+bool is_sieve(const ClusterLook& look) {
+  constexpr double kPorous = 0.25, kSmooth = 0.6;
+  return look.porosity > kPorous && look.smoothness < kSmooth;
+}
+
 }  // namespace
 
 std::optional<ClusterVotes> votes_of(const ScanView& view, std::span<const std::uint32_t> members,
@@ -209,8 +217,6 @@ double log_odds_of_change(const ClusterVotes& votes, const ClusterLook& look, co
   const double blocked = count(votes.blocked) / count(votes.penetrated + votes.blocked + 1);
   const double clearance = std::log(votes.clearance_m + kLeastClearance_m);
   const double roughness_m = std::min(kMostRoughness_m, votes.roughness_m);
-  // What looks as things that stay often do must be so much surer.
-  constexpr double kDoubtInRooms = 3.6, kDoubtOutdoors = 2.5;
   if (parameters.foliage_distance_m == 0.0) {
     constexpr std::size_t kFewestRays = 2, kShortLine = 7;
     constexpr double kNever = -std::numeric_limits<double>::infinity();
@@ -219,15 +225,14 @@ double log_odds_of_change(const ClusterVotes& votes, const ClusterLook& look, co
     if (line && votes.rays_through == 0 && votes.looked_at < kShortLine) return kNever;  // a far edge
     const double looked_at = count(std::max<std::size_t>(votes.looked_at, 1));
     const bool in_doubt = line || (look.extent && has_gaps(*look.extent));
-    return -4.58 - (in_doubt ? kDoubtInRooms : 0.0) + 2.13 * rays + 0.44 * penetrated +
+    return -4.58 - (in_doubt ? kDoubtOfRemnant : 0.0) + 2.13 * rays + 0.44 * penetrated +
            5.17 * count(votes.penetrated) / looked_at - 7.12 * blocked - 30.0 * look.porosity + 6.8 * clearance -
            0.20 * std::log(looked_at) + 9.2 * look.smoothness;
   }
-  // Through many a thing that stays no ray happens to pass but beside it: a post, or the edge of a roof, that is
-  // narrower than the shots of a far scan are apart.
-  const double no_ray = votes.rays_through == 0 ? 1.5 : 0.0;
+  const double no_ray = votes.rays_through == 0 ? kDoubtOfNoRay : 0.0;
   const bool in_doubt = look.extent && may_have_been_passed(*look.extent, votes);
-  return -12.32 - no_ray - (in_doubt ? kDoubtOutdoors : 0.0) + 1.51 * rays + 2.29 * penetrated - 1.73 * blocked -
+  const double sieve = is_sieve(look) ? kDoubtOfFence : 0.0;
+  return -12.32 - no_ray - sieve - (in_doubt ? kDoubtOfStrip : 0.0) + 1.51 * rays + 2.29 * penetrated - 1.73 * blocked -
          17.75 * look.porosity + 5.67 * clearance + 9.74 * votes.surroundings - 569.0 * roughness_m;
 }
 

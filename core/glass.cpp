@@ -1,13 +1,11 @@
 #include "core/glass.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
 
 #include "core/plane_patch.hpp"
-#include "core/returns_near.hpp"
-#include "core/spread_sample.hpp"
+#include "core/returns_sample.hpp"
 
 namespace raywatch {
 namespace {
@@ -15,19 +13,12 @@ namespace {
 /// Within how many times the thickness of a plane others are in line with it.
 constexpr double kInLine = 2.5;
 
-/// Some of the returns within reach of a cluster that lie on its plane, in an order that does not depend on the scan's.
+/// Some of the returns within reach of a cluster that lie on its plane.
 std::vector<Eigen::Vector3d> returns_on(const ClusterPlane& plane, const ScanView& asked, double off_m) {
   constexpr double kBeside_m = 2.0;
   constexpr std::size_t kMost = 100;
-  std::vector<Eigen::Vector3d> on;
-  for_each_return_around(asked.index.impl(), plane.center_m, plane.radius_m + kBeside_m, [&](std::uint32_t i) {
-    const Eigen::Vector3d p = point_of(asked.index.impl().returns[i]);
-    if (plane.off_m(p) <= off_m) on.push_back(p);
-  });
-  std::sort(on.begin(), on.end(), [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-  });
-  return thinned(std::span<const Eigen::Vector3d>(on), kMost);
+  return sample_of_returns_around(asked.index.impl(), plane.center_m, plane.radius_m + kBeside_m, kMost,
+                                  [&](const Eigen::Vector3d& p) { return plane.off_m(p) <= off_m; });
 }
 
 }  // namespace

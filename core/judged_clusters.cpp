@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/cluster.hpp"
+#include "core/cluster_aspect.hpp"
 #include "core/cluster_plane.hpp"
 #include "core/cluster_votes.hpp"
 #include "core/glass.hpp"
@@ -94,11 +95,13 @@ class Judge {
     const std::optional<ClusterVotes> votes = votes_of(view_, cluster, scan, parameters_, least);
     if (!votes) return {};
     if (!look) look = look_of(view_, cluster, parameters_);
-    const double log_odds = log_odds_of_change(*votes, *look, parameters_);
+    double log_odds = log_odds_of_change(*votes, *look, parameters_);
+    if (log_odds < least) return {};
+    log_odds -= doubt_of(aspect_of(view_, cluster, scan), *votes, parameters_);
     if (log_odds < least) return {};
     if (votes->rays_through < kEnoughRaysThrough && is_scattered(cluster.size(), look->smoothness)) return {};
     const std::optional<ClusterPlane> plane = ClusterPlane::fit(view_, cluster, scan);
-    if (plane && (may_be_glass(*plane, scan) || plane->is_met_edge_on())) return {};
+    if (plane && may_be_glass(*plane, scan)) return {};
     if (is_contradicted(cluster, scan)) return {};
     return {log_odds, votes->rays_through};
   }

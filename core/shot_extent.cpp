@@ -1,11 +1,10 @@
 #include "core/shot_extent.hpp"
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include "core/assumed_sensor.hpp"
+#include "core/principal_axes.hpp"
 
 namespace raywatch {
 
@@ -22,18 +21,13 @@ ShotExtent extent_in_shots(const ScanView& view, std::span<const std::uint32_t> 
   const Eigen::Vector3d northward = center.cross(eastward).normalized();
   const Eigen::Vector2d spacing_rad = spacing_of(view);
 
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  std::vector<Eigen::Vector2d> shots;
   for (const std::uint32_t i : members) {
     const Eigen::Vector3d direction = direction_of_member(i);
-    const Eigen::Vector2d shots =
-        Eigen::Vector2d(eastward.dot(direction), northward.dot(direction)).cwiseQuotient(spacing_rad);
-    mean += shots / count;
-    squares += shots * shots.transpose() / count;
+    shots.push_back(Eigen::Vector2d(eastward.dot(direction), northward.dot(direction)).cwiseQuotient(spacing_rad));
   }
   // The variance of n values a step apart is (n^2 - 1) / 12.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(squares - mean * mean.transpose(), Eigen::EigenvaluesOnly);
-  const Eigen::Vector2d extent = (12.0 * axes.eigenvalues().cwiseMax(0.0).array() + 1.0).sqrt();
+  const Eigen::Vector2d extent = (12.0 * principal_axes_of<2>(shots).variances.array() + 1.0).sqrt();
   return {.length = extent[1], .width = extent[0], .filled = count / extent.prod()};
 }
 
