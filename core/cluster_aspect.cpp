@@ -86,21 +86,28 @@ ClusterAspect aspect_of(const ScanView& view, std::span<const std::uint32_t> mem
           .spacing_m = spacing_of(asked).maxCoeff() * distance_m};
 }
 
-double doubt_of(const ClusterAspect& aspect, const ClusterVotes& votes, const CompareParameters& parameters) {
+double doubt_of(const ClusterAspect& aspect, const ClusterVotes& votes, const ClusterLook& look,
+                const CompareParameters& parameters) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   if (parameters.foliage_distance_m == 0.0) {
     // The sides of cupboards and shelves, which are thinner than the noise, or than the shots are apart, when they are
-    // met edge-on.
-    constexpr double kOblique = 0.2, kEdgeOn = 0.05;  // about 11.5 and 3 degrees
+    // met edge-on; and what the noise has left of a larger side that is.
+    constexpr double kOblique = 0.2, kMoreOblique = 0.1, kEdgeOn = 0.05;  // about 11.5, 6 and 3 degrees
     constexpr double kThin_m = 0.02, kThinBetweenShots = 0.4;
     if (!aspect.is_flat) return 0.0;
     const double thin_m = kThinBetweenShots * aspect.spacing_m;
     if (votes.rays_through == 0 && aspect.facing < kEdgeOn && aspect.foreshortened_m() < thin_m) return kNever;
+    if (aspect.facing < kMoreOblique && look.extent && look.extent->has_gaps()) return kNever;
     return aspect.facing < kOblique && aspect.foreshortened_m() < kThin_m ? kDoubtOfEdgeOn : 0.0;
   }
-  // Posts that stand between the shots of a far scan. Not what is only met edge-on: the sides of cars.
+  // Posts that stand between the shots of a far scan. Not what is only met edge-on: the sides of cars; unless hardly
+  // any point of it was penetrated.
   constexpr double kFacing = 0.25, kBetweenShots = 0.5;
-  return aspect.facing > kFacing && aspect.breadth_m < kBetweenShots * aspect.spacing_m ? kDoubtOfBetweenShots : 0.0;
+  constexpr double kFewPenetrated = 0.35, kThinBetweenShots = 0.4;
+  const bool is_upright = aspect.facing > kFacing && aspect.breadth_m < kBetweenShots * aspect.spacing_m;
+  const bool is_thin =
+      votes.share_penetrated() < kFewPenetrated && aspect.breadth_m < kThinBetweenShots * aspect.spacing_m;
+  return is_upright || is_thin ? kDoubtOfBetweenShots : 0.0;
 }
 
 }  // namespace raywatch

@@ -26,6 +26,7 @@ ClusterAspect aspect_of(const ScanView& view, std::span<const std::uint32_t> mem
 
 /// By how much the log-odds of a change fall because the rays of the asked scan may have gone past the cluster, where
 /// they seem to have gone through; infinite when they tell nothing.
-double doubt_of(const ClusterAspect& aspect, const ClusterVotes& votes, const CompareParameters& parameters);
+double doubt_of(const ClusterAspect& aspect, const ClusterVotes& votes, const ClusterLook& look,
+                const CompareParameters& parameters);
 
 }  // namespace raywatch

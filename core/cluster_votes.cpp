@@ -105,28 +105,13 @@ double median_clearance_m(const ScanView& asked, const Sample& sample) {
   return median(std::move(distances_m));
 }
 
-/// Whether a cluster is full of gaps, as what is left of a surface when other points of it were not free, and as a
-/// fence.
-bool has_gaps(const ShotExtent& extent) {
-  constexpr double kFilled = 0.6;
-  return extent.filled < kFilled;
-}
-
-/// Whether a cluster is a single line of shots: so an edge of a thing that stayed looks, when the other scan's rays
-/// passed beside it. No line surrounds a ray; one that leans a little only seems to.
-bool is_line(const ShotExtent& extent) {
-  constexpr double kLine = 1.8;
-  return extent.width < kLine;
-}
-
 /// Whether rays may have passed a strip at most three shots wide although nothing changed: through its gaps, as between
 /// the wires of a fence; or beside it, as past a post that stands between two columns of the shots of `asked`, when few
 /// of its points were penetrated.
 bool may_have_been_passed(const ShotExtent& extent, const ClusterVotes& votes) {
   constexpr double kStrip = 3.0, kFew = 0.3;
   if (extent.width >= kStrip) return false;
-  const double penetrated = static_cast<double>(votes.penetrated) / static_cast<double>(votes.looked_at);
-  return has_gaps(extent) || penetrated < kFew;
+  return extent.has_gaps() || votes.share_penetrated() < kFew;
 }
 
 /// Whether a cluster is a piece of a fence: its own scan sees through it, and the shots beside most of its points
@@ -134,6 +119,14 @@ bool may_have_been_passed(const ShotExtent& extent, const ClusterVotes& votes) {
 bool is_sieve(const ClusterLook& look) {
   constexpr double kPorous = 0.25, kSmooth = 0.6;
   return look.porosity > kPorous && look.smoothness < kSmooth;
+}
+
+/// Whether a cluster lies close among things that `asked` shows densely, and as rough: leaves near a sensor, each of
+/// which is a surface of many shots that the wind has moved.
+bool is_among_leaves(const ClusterVotes& votes) {
+  constexpr double kRough = 0.95, kClose_m = 0.5;
+  constexpr std::size_t kDense = 80;  // returns
+  return votes.surroundings.smoothness < kRough && votes.surroundings.returns > kDense && votes.clearance_m < kClose_m;
 }
 
 }  // namespace
@@ -153,7 +146,7 @@ std::optional<ClusterVotes> votes_of(const ScanView& view, std::span<const std::
 
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& point_m : sample.asked_m) center_m += point_m / count;
-  votes.surroundings = smoothness_around(asked, center_m, parameters.foliage_distance_m);
+  votes.surroundings = surroundings_of(asked, center_m, parameters.foliage_distance_m);
   if (is_hopeless()) return std::nullopt;
 
   const Crossing crossing(view, asked, parameters.support_distance_m);
@@ -219,21 +212,25 @@ double log_odds_of_change(const ClusterVotes& votes, const ClusterLook& look, co
   const double roughness_m = std::min(kMostRoughness_m, votes.roughness_m);
   if (parameters.foliage_distance_m == 0.0) {
     constexpr std::size_t kFewestRays = 2, kShortLine = 7;
+    constexpr double kFewPenetrated = 0.1;
     constexpr double kNever = -std::numeric_limits<double>::infinity();
     if (votes.rays_through + votes.penetrated < kFewestRays) return kNever;
-    const bool line = look.extent && is_line(*look.extent);
+    const bool line = look.extent && look.extent->is_line();
     if (line && votes.rays_through == 0 && votes.looked_at < kShortLine) return kNever;  // a far edge
+    if (votes.rays_through == 0 && votes.share_penetrated() < kFewPenetrated) return kNever;
     const double looked_at = count(std::max<std::size_t>(votes.looked_at, 1));
-    const bool in_doubt = line || (look.extent && has_gaps(*look.extent));
+    const bool in_doubt = line || (look.extent && look.extent->has_gaps());
     return -4.58 - (in_doubt ? kDoubtOfRemnant : 0.0) + 2.13 * rays + 0.44 * penetrated +
-           5.17 * count(votes.penetrated) / looked_at - 7.12 * blocked - 30.0 * look.porosity + 6.8 * clearance -
+           5.17 * votes.share_penetrated() - 7.12 * blocked - 30.0 * look.porosity + 6.8 * clearance -
            0.20 * std::log(looked_at) + 9.2 * look.smoothness;
   }
   const double no_ray = votes.rays_through == 0 ? kDoubtOfNoRay : 0.0;
   const bool in_doubt = look.extent && may_have_been_passed(*look.extent, votes);
   const double sieve = is_sieve(look) ? kDoubtOfFence : 0.0;
-  return -12.32 - no_ray - sieve - (in_doubt ? kDoubtOfStrip : 0.0) + 1.51 * rays + 2.29 * penetrated - 1.73 * blocked -
-         17.75 * look.porosity + 5.67 * clearance + 9.74 * votes.surroundings - 569.0 * roughness_m;
+  const double leaves = is_among_leaves(votes) ? kDoubtOfLeaves : 0.0;
+  return -12.32 - no_ray - sieve - leaves - (in_doubt ? kDoubtOfStrip : 0.0) + 1.51 * rays + 2.29 * penetrated -
+         1.73 * blocked - 17.75 * look.porosity + 5.67 * clearance + 9.74 * votes.surroundings.smoothness -
+         569.0 * roughness_m;
 }
 
 }  // namespace raywatch

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
 
 #include "core/compare.hpp"
 #include "core/shot_extent.hpp"
+#include "core/smoothness.hpp"
 
 namespace raywatch {
 
@@ -22,10 +24,15 @@ struct ClusterVotes {
   /// The median distance of the points from the nearest return of `asked`; at most 1 m. Low where an edge was measured
   /// a second time, a little beside; and of leaves that swayed.
   double clearance_m = 0.0;
-  /// How smooth what `asked` shows within `foliage_distance_m` of the cluster is; see core/smoothness.hpp.
-  double surroundings = 1.0;
+  /// What `asked` shows within `foliage_distance_m` of the cluster.
+  Surroundings surroundings;
   /// The mean of how rough what `asked` shows near the points is; see core/smoothness.hpp.
   double roughness_m = 0.0;
+
+  /// 0..1
+  double share_penetrated() const {
+    return static_cast<double>(penetrated) / static_cast<double>(std::max<std::size_t>(looked_at, 1));
+  }
 };
 
 /// @param members points of `view`, at least one.

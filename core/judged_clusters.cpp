@@ -97,7 +97,7 @@ class Judge {
     if (!look) look = look_of(view_, cluster, parameters_);
     double log_odds = log_odds_of_change(*votes, *look, parameters_);
     if (log_odds < least) return {};
-    log_odds -= doubt_of(aspect_of(view_, cluster, scan), *votes, parameters_);
+    log_odds -= doubt_of(aspect_of(view_, cluster, scan), *votes, *look, parameters_);
     if (log_odds < least) return {};
     if (votes->rays_through < kEnoughRaysThrough && is_scattered(cluster.size(), look->smoothness)) return {};
     const std::optional<ClusterPlane> plane = ClusterPlane::fit(view_, cluster, scan);

@@ -70,12 +70,12 @@ class Neighbourhood {
 
 }  // namespace
 
-double smoothness_around(const ScanView& view, const Eigen::Vector3d& center_m, double distance_m) {
+Surroundings surroundings_of(const ScanView& view, const Eigen::Vector3d& center_m, double distance_m) {
   constexpr std::size_t kLeast = 3, kMost = 100;
   const PriorIndex::Impl& index = view.index.impl();
   std::vector<std::uint32_t> near;
   for_each_return_around(index, center_m, distance_m, [&](std::uint32_t i) { near.push_back(i); });
-  if (near.size() < kLeast) return 1.0;
+  if (near.size() < kLeast) return {.smoothness = 1.0, .returns = near.size()};
   const auto stride = static_cast<std::uint32_t>((near.size() - 1) / kMost + 1);
   double sum = 0.0;
   std::size_t count = 0;
@@ -84,7 +84,7 @@ double smoothness_around(const ScanView& view, const Eigen::Vector3d& center_m, 
     sum += Neighbourhood(view, point_of(index.returns[i])).smoothness();
     ++count;
   }
-  return count == 0 ? 1.0 : sum / static_cast<double>(count);
+  return {.smoothness = count == 0 ? 1.0 : sum / static_cast<double>(count), .returns = near.size()};
 }
 
 double smoothness_of(const ScanView& view, std::span<const std::uint32_t> members) {

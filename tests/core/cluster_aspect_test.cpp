@@ -92,31 +92,66 @@ TEST_CASE("in rooms what is met edge-on is doubted, and does not count at all wh
   const CompareParameters rooms = default_parameters(Profile::indoor, Grouping::consensus);
   const ClusterVotes through{.rays_through = 9}, beside{.rays_through = 0};
   const ClusterAspect panel{.is_flat = true, .facing = 0.04, .depth_m = 0.4, .breadth_m = 0.1, .spacing_m = 0.05};
-  CHECK(doubt_of(panel, through, rooms) > 0.0);
-  CHECK(std::isfinite(doubt_of(panel, through, rooms)));
-  CHECK(doubt_of(panel, beside, rooms) == std::numeric_limits<double>::infinity());
+  CHECK(doubt_of(panel, through, {}, rooms) > 0.0);
+  CHECK(std::isfinite(doubt_of(panel, through, {}, rooms)));
+  CHECK(doubt_of(panel, beside, {}, rooms) == std::numeric_limits<double>::infinity());
   ClusterAspect other = panel;
   other.is_flat = false;
-  CHECK(doubt_of(other, beside, rooms) == 0.0);
+  CHECK(doubt_of(other, beside, {}, rooms) == 0.0);
   other = panel;
   other.facing = 0.5;
-  CHECK(doubt_of(other, beside, rooms) == 0.0);
+  CHECK(doubt_of(other, beside, {}, rooms) == 0.0);
   other = panel;
   other.depth_m = 3.0;  // 12 cm of it are seen, more than lies between two shots
-  CHECK(doubt_of(other, beside, rooms) == 0.0);
+  CHECK(doubt_of(other, beside, {}, rooms) == 0.0);
+  const ClusterLook full{.extent = ShotExtent{.length = 9.0, .width = 5.0, .filled = 0.9}};
+  const ClusterLook remnant{.extent = ShotExtent{.length = 9.0, .width = 5.0, .filled = 0.2}};
+  CHECK(doubt_of(other, through, full, rooms) == 0.0);
+  CHECK(doubt_of(other, through, remnant, rooms) == std::numeric_limits<double>::infinity());
+  other.facing = 0.3;
+  CHECK(doubt_of(other, through, remnant, rooms) == 0.0);
 }
 
 TEST_CASE("outdoors what stands upright between the shots is doubted, the sides of cars are not") {
   const CompareParameters outdoors = default_parameters(Profile::outdoor, Grouping::consensus);
-  const ClusterVotes votes{.rays_through = 4};
+  const ClusterVotes votes{.rays_through = 4, .penetrated = 9, .looked_at = 10};
+  const ClusterVotes hardly_any{.rays_through = 4, .penetrated = 3, .looked_at = 10};
   const ClusterAspect post{.facing = 0.8, .depth_m = 0.1, .breadth_m = 0.1, .spacing_m = 0.3};
-  CHECK(doubt_of(post, votes, outdoors) > 0.0);
+  CHECK(doubt_of(post, votes, {}, outdoors) > 0.0);
   ClusterAspect other = post;
   other.breadth_m = 0.4;
-  CHECK(doubt_of(other, votes, outdoors) == 0.0);
+  CHECK(doubt_of(other, votes, {}, outdoors) == 0.0);
   other = post;
   other.facing = 0.1;
-  CHECK(doubt_of(other, votes, outdoors) == 0.0);
+  CHECK(doubt_of(other, votes, {}, outdoors) == 0.0);
+  CHECK(doubt_of(other, hardly_any, {}, outdoors) > 0.0);
+}
+
+TEST_CASE("outdoors what lies close among rough things that are seen densely must be surer, as leaves near a sensor") {
+  const CompareParameters outdoors = default_parameters(Profile::outdoor, Grouping::consensus);
+  const auto log_odds = [&](const Surroundings& surroundings, double clearance_m) {
+    const ClusterVotes votes{.rays_through = 30,
+                             .penetrated = 40,
+                             .looked_at = 40,
+                             .clearance_m = clearance_m,
+                             .surroundings = surroundings};
+    return log_odds_of_change(votes, {}, outdoors);
+  };
+  const Surroundings leaves{.smoothness = 0.9, .returns = 200}, grass_far_away{.smoothness = 0.9, .returns = 20};
+  CHECK(log_odds(leaves, 0.3) < log_odds(grass_far_away, 0.3) - 2.0);
+  CHECK(log_odds(leaves, 0.6) == log_odds(grass_far_away, 0.6));
+  CHECK(log_odds({.smoothness = 0.97, .returns = 200}, 0.3) == log_odds({.smoothness = 0.97, .returns = 20}, 0.3));
+}
+
+TEST_CASE("in rooms what no ray went through is no change when hardly any of its points was penetrated") {
+  const CompareParameters rooms = default_parameters(Profile::indoor, Grouping::consensus);
+  const auto log_odds = [&](std::size_t rays, std::size_t penetrated) {
+    const ClusterVotes votes{.rays_through = rays, .penetrated = penetrated, .looked_at = 40, .clearance_m = 1.0};
+    return log_odds_of_change(votes, {}, rooms);
+  };
+  CHECK(log_odds(0, 3) == -std::numeric_limits<double>::infinity());
+  CHECK(std::isfinite(log_odds(0, 4)));
+  CHECK(std::isfinite(log_odds(1, 3)));
 }
 
 TEST_CASE("outdoors a piece of a fence must be surer than what is as porous but smooth") {

@@ -166,8 +166,8 @@ TEST_CASE("the surroundings of a place are smooth at a wall and rough in leaves"
   std::mt19937 random(5);
   std::uniform_real_distribution<double> near_thing(kThing_m - 0.7, kThing_m + 0.7);
   const Taken leaves(shoot([&](int, int) { return near_thing(random); }));
-  CHECK(votes(thing(3, 3), shots_of_thing(3, 3), wall()).surroundings == 1.0);
-  CHECK(votes(thing(3, 3), shots_of_thing(3, 3), leaves).surroundings < 0.85);
+  CHECK(votes(thing(3, 3), shots_of_thing(3, 3), wall()).surroundings.smoothness == 1.0);
+  CHECK(votes(thing(3, 3), shots_of_thing(3, 3), leaves).surroundings.smoothness < 0.85);
 }
 
 TEST_CASE("a sure cluster grows over open points up to the growth distance, and not over closed ones") {

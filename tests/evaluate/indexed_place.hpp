@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/compare.hpp"
+#include "core/index_scan.hpp"
 #include "core/profile.hpp"
 #include "tests/evaluate/cases.hpp"
 
@@ -15,8 +16,9 @@ struct CaseViews {
   std::vector<ScanView> priors;
 };
 
-/// A place with every scan indexed once, so that any number of thresholds can be tried. Immutable; the place must
-/// outlive it. What is known about each sensor is estimated from its scan, as the program does for files.
+/// A place with every scan indexed once for each way of comparing, so that any number of thresholds can be tried.
+/// Immutable; the place must outlive it. What is known about each sensor is estimated from its scan, as the program
+/// does for files.
 class IndexedPlace {
  public:
   /// Runs in the caller's oneTBB arena. The profile says which returns a consensus takes for the rig.
@@ -32,9 +34,8 @@ class IndexedPlace {
 
  private:
   struct IndexedScan {
-    SensorModel sensor;
-    std::shared_ptr<const PriorIndex> all;     ///< every return
-    std::shared_ptr<const PriorIndex> usable;  ///< without what the sensor reports instead of "no return"
+    std::shared_ptr<const ScanIndex> published;  ///< for `union`: every return
+    std::shared_ptr<const ScanIndex> weighed;    ///< for `consensus`: without the rig and what stands for "no return"
   };
   static IndexedScan index(const SimulatedScan& scan, Profile profile);
   ScanView view(std::size_t scan, Grouping grouping) const;
