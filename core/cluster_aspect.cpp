@@ -91,13 +91,17 @@ double doubt_of(const ClusterAspect& aspect, const ClusterVotes& votes, const Cl
   constexpr double kNever = std::numeric_limits<double>::infinity();
   if (parameters.foliage_distance_m == 0.0) {
     // The sides of cupboards and shelves, which are thinner than the noise, or than the shots are apart, when they are
-    // met edge-on; and what the noise has left of a larger side that is.
-    constexpr double kOblique = 0.2, kMoreOblique = 0.1, kEdgeOn = 0.05;  // about 11.5, 6 and 3 degrees
-    constexpr double kThin_m = 0.02, kThinBetweenShots = 0.4;
+    // met edge-on; and pieces of such a side, of which other points were not free: full of gaps, or without an edge.
+    constexpr double kSlanted = 0.35, kOblique = 0.2, kMoreOblique = 0.1, kEdgeOn = 0.05;  // 20, 11.5, 6 and 3 degrees
+    constexpr double kThin_m = 0.02, kThinBetweenShots = 0.4, kNarrowBetweenShots = 0.75;
+    constexpr double kWithoutEdge = 0.95;
     if (!aspect.is_flat) return 0.0;
     const double thin_m = kThinBetweenShots * aspect.spacing_m;
     if (votes.rays_through == 0 && aspect.facing < kEdgeOn && aspect.foreshortened_m() < thin_m) return kNever;
-    if (aspect.facing < kMoreOblique && look.extent && look.extent->has_gaps()) return kNever;
+    const bool has_gaps = look.extent && look.extent->has_gaps();
+    const bool is_narrow = aspect.breadth_m < kNarrowBetweenShots * aspect.spacing_m;
+    if (aspect.facing < kMoreOblique && (has_gaps || look.smoothness > kWithoutEdge)) return kNever;
+    if (aspect.facing < kSlanted && has_gaps && is_narrow) return kNever;
     return aspect.facing < kOblique && aspect.foreshortened_m() < kThin_m ? kDoubtOfEdgeOn : 0.0;
   }
   // Posts that stand between the shots of a far scan. Not what is only met edge-on: the sides of cars; unless hardly

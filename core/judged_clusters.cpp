@@ -43,8 +43,11 @@ std::vector<std::vector<Candidate>> clusters_of(const ScanView& view, std::span<
 
 /// In an order that does not depend on that of the scan's points, as some of a large cluster stand for all of it.
 void sort_by_place(const PointCloud& points, std::vector<std::uint32_t>& members) {
-  const auto place = [&](std::uint32_t i) { return std::make_tuple(points.x_m[i], points.y_m[i], points.z_m[i]); };
-  std::sort(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
+  std::vector<std::tuple<float, float, float, std::uint32_t>> places;
+  places.reserve(members.size());
+  for (const std::uint32_t i : members) places.emplace_back(points.x_m[i], points.y_m[i], points.z_m[i], i);
+  std::sort(places.begin(), places.end());
+  std::transform(places.begin(), places.end(), members.begin(), [](const auto& place) { return std::get<3>(place); });
 }
 
 /// The members of a cluster that nobody contradicts, if these are the most.

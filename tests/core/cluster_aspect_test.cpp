@@ -35,6 +35,8 @@ struct Wall {
   }
 };
 
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
 constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 TEST_CASE("the surface around a small cluster tells at which angle another scan meets it") {
@@ -91,25 +93,39 @@ TEST_CASE("a common rigid motion changes no aspect") {
 TEST_CASE("in rooms what is met edge-on is doubted, and does not count at all where no ray went through") {
   const CompareParameters rooms = default_parameters(Profile::indoor, Grouping::consensus);
   const ClusterVotes through{.rays_through = 9}, beside{.rays_through = 0};
+  const ClusterLook thing{.smoothness = 0.7, .extent = ShotExtent{.length = 9.0, .width = 5.0, .filled = 0.9}};
   const ClusterAspect panel{.is_flat = true, .facing = 0.04, .depth_m = 0.4, .breadth_m = 0.1, .spacing_m = 0.05};
-  CHECK(doubt_of(panel, through, {}, rooms) > 0.0);
-  CHECK(std::isfinite(doubt_of(panel, through, {}, rooms)));
-  CHECK(doubt_of(panel, beside, {}, rooms) == std::numeric_limits<double>::infinity());
+  CHECK(doubt_of(panel, through, thing, rooms) > 0.0);
+  CHECK(std::isfinite(doubt_of(panel, through, thing, rooms)));
+  CHECK(doubt_of(panel, beside, thing, rooms) == kNever);
   ClusterAspect other = panel;
   other.is_flat = false;
-  CHECK(doubt_of(other, beside, {}, rooms) == 0.0);
+  CHECK(doubt_of(other, beside, thing, rooms) == 0.0);
   other = panel;
   other.facing = 0.5;
-  CHECK(doubt_of(other, beside, {}, rooms) == 0.0);
+  CHECK(doubt_of(other, beside, thing, rooms) == 0.0);
   other = panel;
   other.depth_m = 3.0;  // 12 cm of it are seen, more than lies between two shots
-  CHECK(doubt_of(other, beside, {}, rooms) == 0.0);
-  const ClusterLook full{.extent = ShotExtent{.length = 9.0, .width = 5.0, .filled = 0.9}};
-  const ClusterLook remnant{.extent = ShotExtent{.length = 9.0, .width = 5.0, .filled = 0.2}};
-  CHECK(doubt_of(other, through, full, rooms) == 0.0);
-  CHECK(doubt_of(other, through, remnant, rooms) == std::numeric_limits<double>::infinity());
-  other.facing = 0.3;
-  CHECK(doubt_of(other, through, remnant, rooms) == 0.0);
+  CHECK(doubt_of(other, beside, thing, rooms) == 0.0);
+}
+
+TEST_CASE(
+    "in rooms a piece of a flat side that is met edge-on is no change, however many rays seem to have gone through") {
+  const CompareParameters rooms = default_parameters(Profile::indoor, Grouping::consensus);
+  const ClusterVotes through{.rays_through = 9};
+  const ShotExtent full{.length = 9.0, .width = 5.0, .filled = 0.9}, sparse{.length = 9.0, .width = 5.0, .filled = 0.2};
+  const ClusterLook thing{.smoothness = 0.7, .extent = full}, full_of_gaps{.smoothness = 0.7, .extent = sparse},
+      without_edge{.smoothness = 1.0, .extent = full};
+  ClusterAspect side{.is_flat = true, .facing = 0.08, .depth_m = 3.0, .breadth_m = 0.1, .spacing_m = 0.05};
+  CHECK(doubt_of(side, through, thing, rooms) == 0.0);
+  CHECK(doubt_of(side, through, full_of_gaps, rooms) == kNever);
+  CHECK(doubt_of(side, through, without_edge, rooms) == kNever);
+  side.facing = 0.3;
+  CHECK(doubt_of(side, through, full_of_gaps, rooms) == 0.0);
+  CHECK(doubt_of(side, through, without_edge, rooms) == 0.0);
+  side.breadth_m = 0.03;  // narrower than the shots are apart
+  CHECK(doubt_of(side, through, thing, rooms) == 0.0);
+  CHECK(doubt_of(side, through, full_of_gaps, rooms) == kNever);
 }
 
 TEST_CASE("outdoors what stands upright between the shots is doubted, the sides of cars are not") {
@@ -149,7 +165,7 @@ TEST_CASE("in rooms what no ray went through is no change when hardly any of its
     const ClusterVotes votes{.rays_through = rays, .penetrated = penetrated, .looked_at = 40, .clearance_m = 1.0};
     return log_odds_of_change(votes, {}, rooms);
   };
-  CHECK(log_odds(0, 3) == -std::numeric_limits<double>::infinity());
+  CHECK(log_odds(0, 3) == -kNever);
   CHECK(std::isfinite(log_odds(0, 4)));
   CHECK(std::isfinite(log_odds(1, 3)));
 }
