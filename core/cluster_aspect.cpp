@@ -62,6 +62,35 @@ double breadth_across(const Points3d& points_m, const Eigen::Vector3d& ray) {
   return principal_axes_of<2>(across_m).widths()[0];
 }
 
+constexpr double kTellsNothing = std::numeric_limits<double>::infinity();
+
+/// The sides of cupboards and shelves, which are thinner than the noise, or than the shots are apart, when they are met
+/// edge-on; and pieces of such a side, of which other points were not free: full of gaps, or without an edge.
+double doubt_in_room(const ClusterAspect& aspect, const ClusterVotes& votes, const ClusterLook& look) {
+  constexpr double kSlanted = 0.35, kOblique = 0.2, kMoreOblique = 0.1, kEdgeOn = 0.05;  // 20, 11.5, 6 and 3 degrees
+  constexpr double kThin_m = 0.02, kThinBetweenShots = 0.4, kNarrowBetweenShots = 0.75;
+  constexpr double kWithoutEdge = 0.95;
+  if (!aspect.is_flat) return 0.0;
+  const double thin_m = kThinBetweenShots * aspect.spacing_m;
+  if (votes.rays_through == 0 && aspect.facing < kEdgeOn && aspect.foreshortened_m() < thin_m) return kTellsNothing;
+  const bool has_gaps = look.extent && look.extent->has_gaps();
+  const bool is_narrow = aspect.breadth_m < kNarrowBetweenShots * aspect.spacing_m;
+  const bool is_without_edge = look.smoothness > kWithoutEdge;
+  if (aspect.facing < kMoreOblique && (has_gaps || is_without_edge)) return kTellsNothing;
+  if (aspect.facing < kSlanted && has_gaps && (is_narrow || is_without_edge)) return kTellsNothing;
+  return aspect.facing < kOblique && aspect.foreshortened_m() < kThin_m ? kDoubtOfEdgeOn : 0.0;
+}
+
+/// Posts that stand between the shots of a far scan. Not what is only met edge-on, as the sides of cars; unless hardly
+/// any point of it was penetrated.
+double doubt_outdoors(const ClusterAspect& aspect, const ClusterVotes& votes) {
+  constexpr double kFacing = 0.25, kBetweenShots = 0.5, kThinBetweenShots = 0.4, kFewPenetrated = 0.35;
+  const bool is_upright = aspect.facing > kFacing && aspect.breadth_m < kBetweenShots * aspect.spacing_m;
+  const bool is_thin =
+      votes.share_penetrated() < kFewPenetrated && aspect.breadth_m < kThinBetweenShots * aspect.spacing_m;
+  return is_upright || is_thin ? kDoubtOfBetweenShots : 0.0;
+}
+
 }  // namespace
 
 ClusterAspect aspect_of(const ScanView& view, std::span<const std::uint32_t> members, const ScanView& asked) {
@@ -88,30 +117,7 @@ ClusterAspect aspect_of(const ScanView& view, std::span<const std::uint32_t> mem
 
 double doubt_of(const ClusterAspect& aspect, const ClusterVotes& votes, const ClusterLook& look,
                 const CompareParameters& parameters) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  if (parameters.foliage_distance_m == 0.0) {
-    // The sides of cupboards and shelves, which are thinner than the noise, or than the shots are apart, when they are
-    // met edge-on; and pieces of such a side, of which other points were not free: full of gaps, or without an edge.
-    constexpr double kSlanted = 0.35, kOblique = 0.2, kMoreOblique = 0.1, kEdgeOn = 0.05;  // 20, 11.5, 6 and 3 degrees
-    constexpr double kThin_m = 0.02, kThinBetweenShots = 0.4, kNarrowBetweenShots = 0.75;
-    constexpr double kWithoutEdge = 0.95;
-    if (!aspect.is_flat) return 0.0;
-    const double thin_m = kThinBetweenShots * aspect.spacing_m;
-    if (votes.rays_through == 0 && aspect.facing < kEdgeOn && aspect.foreshortened_m() < thin_m) return kNever;
-    const bool has_gaps = look.extent && look.extent->has_gaps();
-    const bool is_narrow = aspect.breadth_m < kNarrowBetweenShots * aspect.spacing_m;
-    if (aspect.facing < kMoreOblique && (has_gaps || look.smoothness > kWithoutEdge)) return kNever;
-    if (aspect.facing < kSlanted && has_gaps && is_narrow) return kNever;
-    return aspect.facing < kOblique && aspect.foreshortened_m() < kThin_m ? kDoubtOfEdgeOn : 0.0;
-  }
-  // Posts that stand between the shots of a far scan. Not what is only met edge-on: the sides of cars; unless hardly
-  // any point of it was penetrated.
-  constexpr double kFacing = 0.25, kBetweenShots = 0.5;
-  constexpr double kFewPenetrated = 0.35, kThinBetweenShots = 0.4;
-  const bool is_upright = aspect.facing > kFacing && aspect.breadth_m < kBetweenShots * aspect.spacing_m;
-  const bool is_thin =
-      votes.share_penetrated() < kFewPenetrated && aspect.breadth_m < kThinBetweenShots * aspect.spacing_m;
-  return is_upright || is_thin ? kDoubtOfBetweenShots : 0.0;
+  return parameters.foliage_distance_m == 0.0 ? doubt_in_room(aspect, votes, look) : doubt_outdoors(aspect, votes);
 }
 
 }  // namespace raywatch

@@ -123,6 +123,7 @@ TEST_CASE(
   side.facing = 0.3;
   CHECK(doubt_of(side, through, full_of_gaps, rooms) == 0.0);
   CHECK(doubt_of(side, through, without_edge, rooms) == 0.0);
+  CHECK(doubt_of(side, through, {.smoothness = 1.0, .extent = sparse}, rooms) == kNever);
   side.breadth_m = 0.03;  // narrower than the shots are apart
   CHECK(doubt_of(side, through, thing, rooms) == 0.0);
   CHECK(doubt_of(side, through, full_of_gaps, rooms) == kNever);
