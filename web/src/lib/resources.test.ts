@@ -66,6 +66,19 @@ describe('resources', () => {
     expect(daemon.resources['/a']?.stale).toBe(false);
   });
 
+  it('that are forgotten are not shown again until they are asked anew', async () => {
+    const daemon = new Daemon();
+    const end = daemon.loader.use('/a');
+    await settle(2000);
+    daemon.version = 2;
+    daemon.loader.forget((key) => key === '/a');
+    expect(daemon.resources['/a']).toBeUndefined();
+    daemon.loader.use('/a');
+    end();
+    await settle(2000);
+    expect(daemon.resources['/a']).toEqual({ data: 2, etag: '"2"', loading: false, stale: false });
+  });
+
   it('that nobody looks at are asked when somebody does again', async () => {
     const daemon = new Daemon();
     daemon.loader.use('/a')();

@@ -104,6 +104,12 @@ export class ResourceLoader {
     for (const key of keys) if (this.users.has(key)) this.ensure(key);
   }
 
+  /** Drops what must not be shown again, not even until it is asked anew: what lists a thing that is gone. */
+  forget(matches: (key: string) => boolean): void {
+    const keys = Object.keys(this.options.resources()).filter(matches);
+    if (keys.length > 0) this.options.dispatch({ type: 'resource/dropped', keys });
+  }
+
   /** Puts an answer in place that came another way, such as that of an edit. */
   put<T>(key: Address<T>, answer: Answer<T>): void {
     this.options.dispatch({ type: 'resource/arrived', key, data: answer.data, etag: answer.etag });

@@ -25,7 +25,8 @@ import { ZoneEditor } from './zone_editor';
 type Zone = Schema<'Zone'>;
 
 const addressOf = (id: number) => address('/api/v1/zones/{id}', { path: { id } });
-const listsAreOld = (): void => loader.invalidate((key) => key.startsWith('/api/v1/zones?'));
+const isListOfZones = (key: string): boolean => key.startsWith('/api/v1/zones?');
+const listsAreOld = (): void => loader.invalidate(isListOfZones);
 
 const CoveragePanel = lazy(() => import('./coverage_panel').then((module) => module.CoveragePanel));
 
@@ -95,7 +96,7 @@ function DeleteZone({ zone, onClose }: { zone: Zone; onClose: () => void }) {
   const users = rules.data?.items.filter((rule) => rule.zone === zone.id);
   const remove = async (): Promise<void> => {
     await send('delete', '/api/v1/zones/{id}', { path: { id: zone.id } });
-    listsAreOld();
+    loader.forget(isListOfZones);
     showToast('good', `The zone ${zone.name} was deleted.`);
     navigate(linkTo('/zones', { site: zone.site }));
   };
