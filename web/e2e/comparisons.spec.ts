@@ -73,8 +73,9 @@ test('wrong input is shown at its field, by the form and by the daemon', async (
   await expect(page.getByLabel('Numbers of scans')).toHaveAccessibleDescription(/scan 9 is the one that is compared/);
 
   troubles.expect(/404/);
-  await page.getByLabel('Number of the scan').fill('99');
-  await page.getByLabel('Number of the scan').blur();
+  await page.getByLabel('Number of the scan').press('Control+a');
+  await page.getByLabel('Number of the scan').pressSequentially('99');
+  await page.getByLabel('Number of the scan').press('Tab');
   await expect(page.getByLabel('Number of the scan')).toHaveAccessibleDescription(/99/);
 });
 
