@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/assumed_sensor.hpp"
+#include "core/cluster_plane.hpp"
 #include "core/doubts.hpp"
 #include "core/principal_axes.hpp"
 #include "core/returns_sample.hpp"
@@ -29,16 +30,15 @@ Points3d returns_beside(const ScanView& view, const Points3d& members_m) {
                                   [&](const Eigen::Vector3d& p) { return box_m.contains(p); });
 }
 
-/// Begins with the members of a cluster, and goes on with what lies on their plane beside them.
-PrincipalAxes<3> surface_of(const Points3d& members_m, const Points3d& beside_m, double on_m) {
+/// Begins with the plane of the members of a cluster, and goes on with what lies on it beside them, if that is more.
+PrincipalAxes<3> surface_of(PrincipalAxes<3> plane, std::size_t members, const Points3d& beside_m, double on_m) {
   constexpr int kRounds = 3;
-  PrincipalAxes<3> plane = principal_axes_of<3>(members_m);
   for (int round = 0; round < kRounds; ++round) {
     Points3d on;
     for (const Eigen::Vector3d& p : beside_m) {
       if (std::abs(plane.directions.col(0).dot(p - plane.mean)) < on_m) on.push_back(p);
     }
-    if (on.size() < members_m.size()) break;
+    if (on.size() < members) break;
     plane = principal_axes_of<3>(on);
   }
   return plane;
@@ -94,17 +94,17 @@ double doubt_outdoors(const ClusterAspect& aspect, const ClusterVotes& votes) {
 }  // namespace
 
 ClusterAspect aspect_of(const ScanView& view, std::span<const std::uint32_t> members, const ScanView& asked) {
-  constexpr double kEven_m = 0.015;  // how even a surface is (standard deviation) beside the noise
-  constexpr double kOn = 2.0;        // what is farther off it by so many deviations lies beside it
+  constexpr double kOn = 2.0;  // what is farther off a surface by so many deviations lies beside it
   Points3d members_m;
   for (const std::uint32_t i : thinned(members, kMostPoints)) members_m.push_back(view.points[i].cast<double>());
   const double deviation_m = kEven_m + noise_of(view);
-  const PrincipalAxes<3> surface = surface_of(members_m, returns_beside(view, members_m), kOn * deviation_m);
+  const PrincipalAxes<3> own = principal_axes_of<3>(members_m);
+  const PrincipalAxes<3> surface =
+      surface_of(own, members_m.size(), returns_beside(view, members_m), kOn * deviation_m);
   const Eigen::Vector3d normal = surface.directions.col(0);
 
-  const Eigen::Vector3d center_m = principal_axes_of<3>(members_m).mean;
   const Pose view_from_asked = view.world_from_sensor.inverse() * asked.world_from_sensor;
-  const Eigen::Vector3d to_cluster_m = center_m - view_from_asked.position_m;
+  const Eigen::Vector3d to_cluster_m = own.mean - view_from_asked.position_m;
   const double distance_m = std::max(to_cluster_m.norm(), 1e-6);
   const Eigen::Vector3d ray = to_cluster_m / distance_m;
   const Eigen::Vector3d along = ray - ray.dot(normal) * normal;

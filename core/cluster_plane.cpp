@@ -15,7 +15,6 @@ std::optional<ClusterPlane> ClusterPlane::fit(const ScanView& view, std::span<co
   constexpr std::size_t kMostMembers = 300;  // that are looked at
   constexpr std::size_t kLeastMembers = 20;  // fewer say too little about a plane
   constexpr double kLeastWidth_m = 0.1;
-  constexpr double kEven_m = 0.015;  // how even a plane is (standard deviation) beside the noise
   if (members.size() < kLeastMembers) return std::nullopt;
   const Pose asked_from_view = asked.world_from_sensor.inverse() * view.world_from_sensor;
   ClusterPlane plane{.own_sensor_m = asked_from_view.position_m, .thickness_m = kEven_m + noise_of(view)};

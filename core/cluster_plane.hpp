@@ -11,6 +11,9 @@
 
 namespace raywatch {
 
+/// How even a flat surface is (standard deviation) beside the noise of its scan.
+inline constexpr double kEven_m = 0.015;
+
 /// The plane of a flat cluster, in the frame of a scan that is asked about it.
 struct ClusterPlane {
   Eigen::Vector3d center_m, normal;
